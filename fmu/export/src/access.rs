@@ -1,0 +1,211 @@
+//! Get and Set by value reference: checked against the rows first, written afterwards.
+
+use crate::ffi::ValueReference;
+use crate::guard::{Failure, Outcome};
+use crate::instance::{Instance, refused};
+use crate::legality::Phase;
+use crate::model::Model;
+use declaration::{Access, Causality, Variable};
+
+/// A type of the interface: how to find it in a row and what a row demands of a value.
+pub trait Value: Sized + Clone + 'static {
+    /// Name in the standard.
+    const TYPE: &'static str;
+
+    /// The row's values, if the row is of this type.
+    fn at<M>(access: &Access<M>) -> Option<fn(&mut M) -> &mut [Self]>;
+
+    /// What is wrong with the value, if anything.
+    fn objection<M>(&self, access: &Access<M>) -> Option<String>;
+}
+
+impl Value for f64 {
+    const TYPE: &'static str = "Real";
+
+    fn at<M>(access: &Access<M>) -> Option<fn(&mut M) -> &mut [Self]> {
+        if let Access::Real { at, .. } = access {
+            Some(*at)
+        } else {
+            None
+        }
+    }
+
+    fn objection<M>(&self, access: &Access<M>) -> Option<String> {
+        match access {
+            Access::Real { unit, .. } if !self.is_finite() => {
+                Some(format!("= {self} {}, expected a finite value", unit.name))
+            }
+            Access::Real { unit, min, max, .. } if self < min || self > max => Some(format!(
+                "= {self} {}, expected a value from {min} to {max}",
+                unit.name
+            )),
+            _ => None,
+        }
+    }
+}
+
+impl Value for i32 {
+    const TYPE: &'static str = "Integer";
+
+    fn at<M>(access: &Access<M>) -> Option<fn(&mut M) -> &mut [Self]> {
+        match access {
+            Access::Integer { at, .. } | Access::Enumeration { at, .. } => Some(*at),
+            _ => None,
+        }
+    }
+
+    fn objection<M>(&self, access: &Access<M>) -> Option<String> {
+        match access {
+            Access::Integer { min, max, .. } if self < min || self > max => {
+                Some(format!("= {self}, expected a value from {min} to {max}"))
+            }
+            Access::Enumeration { of, .. } if !of.items.iter().any(|item| item.value == *self) => {
+                let items: Vec<_> = of
+                    .items
+                    .iter()
+                    .map(|item| format!("{} {}", item.value, item.name))
+                    .collect();
+                Some(format!(
+                    "= {self}, expected an item of {}: {}",
+                    of.name,
+                    items.join(", ")
+                ))
+            }
+            _ => None,
+        }
+    }
+}
+
+impl Value for bool {
+    const TYPE: &'static str = "Boolean";
+
+    fn at<M>(access: &Access<M>) -> Option<fn(&mut M) -> &mut [Self]> {
+        if let Access::Boolean { at } = access {
+            Some(*at)
+        } else {
+            None
+        }
+    }
+
+    fn objection<M>(&self, _: &Access<M>) -> Option<String> {
+        None
+    }
+}
+
+impl Value for String {
+    const TYPE: &'static str = "String";
+
+    fn at<M>(access: &Access<M>) -> Option<fn(&mut M) -> &mut [Self]> {
+        if let Access::String { at } = access {
+            Some(*at)
+        } else {
+            None
+        }
+    }
+
+    fn objection<M>(&self, _: &Access<M>) -> Option<String> {
+        None
+    }
+}
+
+/// Where one scalar of type `V` lives.
+struct Place<M: 'static, V> {
+    variable: &'static Variable<M>,
+    element: usize,
+    at: fn(&mut M) -> &mut [V],
+}
+
+fn place<M: Model, V: Value>(reference: ValueReference) -> Result<Place<M, V>, Failure> {
+    let Some((variable, element)) = M::DESCRIPTION.find(reference) else {
+        return refused(format!(
+            "value reference {reference} is not one of {}",
+            M::DESCRIPTION.name
+        ));
+    };
+    let Some(at) = V::at(&variable.access) else {
+        return refused(format!(
+            "{} (value reference {reference}) is not of type {}",
+            variable.element_name(element),
+            V::TYPE
+        ));
+    };
+    Ok(Place {
+        variable,
+        element,
+        at,
+    })
+}
+
+/// Why a variable cannot be set in this phase, if it cannot.
+fn not_settable<M>(variable: &Variable<M>, phase: Phase) -> Option<&'static str> {
+    match variable.causality {
+        Causality::Input => None,
+        Causality::Parameter if variable.is_tunable() || phase != Phase::StepComplete => None,
+        Causality::Parameter => {
+            Some("is a fixed parameter: it can be set before the end of Initialization Mode only")
+        }
+        Causality::Output | Causality::Local | Causality::CalculatedParameter => {
+            Some("is computed by the model: it cannot be set")
+        }
+    }
+}
+
+impl<M: Model> Instance<M> {
+    /// fmi2GetReal, fmi2GetInteger, fmi2GetBoolean, fmi2GetString: calls `put(i, value)` for each reference.
+    pub(crate) fn get<V: Value>(
+        &mut self,
+        references: &[ValueReference],
+        mut put: impl FnMut(usize, &V),
+    ) -> Outcome {
+        if self.now.phase == Phase::InitializationMode {
+            // What cannot be initialized yet still shows its values; fmi2ExitInitializationMode says what is wrong.
+            let _ = self.initialize();
+        }
+        for (i, &reference) in references.iter().enumerate() {
+            let place = place::<M, V>(reference)?;
+            put(i, &(place.at)(&mut self.now.model)[place.element]);
+        }
+        Ok(())
+    }
+
+    /// fmi2SetReal, fmi2SetInteger, fmi2SetBoolean, fmi2SetString. `value(i)` is the i-th value, or why it is none. All
+    /// values are checked before the first is written.
+    pub(crate) fn set<V: Value>(
+        &mut self,
+        references: &[ValueReference],
+        value: impl Fn(usize) -> Result<V, &'static str>,
+    ) -> Outcome {
+        let phase = self.now.phase;
+        let mut tuned = false;
+        for (i, &reference) in references.iter().enumerate() {
+            let Place {
+                variable, element, ..
+            } = place::<M, V>(reference)?;
+            let objection = match (not_settable(variable, phase), value(i)) {
+                (Some(reason), _) => Some(reason.to_owned()),
+                (None, Err(reason)) => Some(reason.to_owned()),
+                (None, Ok(value)) => value.objection(&variable.access),
+            };
+            if let Some(objection) = objection {
+                return refused(format!("{} {objection}", variable.element_name(element)));
+            }
+            tuned |= variable.is_tunable();
+        }
+        let tuned_in_run = tuned && phase == Phase::StepComplete;
+        let before = tuned_in_run.then(|| self.now.model.clone());
+        for (i, &reference) in references.iter().enumerate() {
+            if let (Place { element, at, .. }, Ok(value)) = (place::<M, V>(reference)?, value(i)) {
+                at(&mut self.now.model)[element] = value;
+            }
+        }
+        self.stale |= phase == Phase::InitializationMode;
+        if let Some(before) = before {
+            let (model, mut log) = self.model_and_log();
+            if let Err(refusal) = model.tune(&mut log) {
+                self.now.model = before;
+                return refused(refusal.0);
+            }
+        }
+        Ok(())
+    }
+}

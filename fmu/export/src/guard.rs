@@ -1,0 +1,121 @@
+//! The one guard around every call: null, phase, panic, log, status.
+
+use crate::ffi::{Component, Status};
+use crate::instance::Instance;
+use crate::legality::{Function, Phase};
+use crate::model::Model;
+use std::cell::RefCell;
+use std::fmt::Write as _;
+use std::panic::{AssertUnwindSafe, PanicHookInfo, catch_unwind};
+use std::sync::Once;
+
+/// Why a call did not do what was asked.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Failure {
+    /// Refused: nothing has changed, the phase stays.
+    Refused(String),
+    /// The model failed in the middle of a change: the instance enters the error phase.
+    Broken(String),
+}
+
+impl From<String> for Failure {
+    fn from(reason: String) -> Self {
+        Self::Refused(reason)
+    }
+}
+
+/// Shorthand for the result of an instance's method.
+pub type Outcome = Result<(), Failure>;
+
+/// Runs `call` on the instance behind `component`, if that is legal now, with everything that can go wrong turned into
+/// a logged `fmi2Error`.
+///
+/// # Safety
+/// `component` is null or was returned by [`instantiate`](crate::functions::instantiate) for the same model, was not
+/// freed, and is used by no other thread during the call (the importer's contract, section 2.1.6).
+pub unsafe fn guard<M: Model>(
+    component: Component,
+    function: Function,
+    call: impl FnOnce(&mut Instance<M>) -> Outcome,
+) -> Status {
+    // SAFETY: this function's contract.
+    let Some(instance) = (unsafe { component.cast::<Instance<M>>().as_mut() }) else {
+        return Status::Error; // no instance, hence no logger to tell
+    };
+    // `#[repr(C)]` in Instance keeps nothing of it half-changed: refused calls change nothing, broken ones are marked.
+    let outcome = catch_unwind(AssertUnwindSafe(|| {
+        if !function.is_legal_in(instance.phase()) {
+            return Err(Failure::Refused(not_legal(function, instance.phase())));
+        }
+        call(instance)
+    }))
+    .unwrap_or_else(|_| {
+        Err(Failure::Broken(format!(
+            "panic in the model: {}",
+            last_panic()
+        )))
+    });
+
+    let Err(failure) = outcome else {
+        return Status::Ok;
+    };
+    // Logging calls the importer and allocates; neither may let a panic out.
+    let _ = catch_unwind(AssertUnwindSafe(|| match failure {
+        Failure::Refused(reason) => instance
+            .log()
+            .error(format_args!("{}: {reason}", function.name())),
+        Failure::Broken(reason) => {
+            instance.enter_error();
+            instance.log().error(format_args!(
+                "{}: {reason}; the instance needs fmi2Reset, fmi2SetFMUstate or fmi2FreeInstance",
+                function.name()
+            ));
+        }
+    }));
+    Status::Error
+}
+
+fn not_legal(function: Function, phase: Phase) -> String {
+    let mut text = format!("not legal in the phase '{}', expected ", phase.name());
+    for (i, legal) in function.legal_in().iter().enumerate() {
+        let _ = write!(
+            text,
+            "{}'{}'",
+            if i == 0 { "" } else { " or " },
+            legal.name()
+        );
+    }
+    text
+}
+
+thread_local! {
+    static LAST_PANIC: RefCell<String> = const { RefCell::new(String::new()) };
+}
+
+/// Message and place of this thread's last panic.
+fn last_panic() -> String {
+    LAST_PANIC
+        .try_with(|message| std::mem::take(&mut *message.borrow_mut()))
+        .unwrap_or_default()
+}
+
+/// Keeps panics off stderr and their messages for the log. The library links its own standard library, so the hook is
+/// not the importer's.
+pub(crate) fn install_panic_hook() {
+    static ONCE: Once = Once::new();
+    ONCE.call_once(|| {
+        std::panic::set_hook(Box::new(|info: &PanicHookInfo<'_>| {
+            let what = info
+                .payload()
+                .downcast_ref::<&str>()
+                .copied()
+                .or_else(|| info.payload().downcast_ref::<String>().map(String::as_str))
+                .unwrap_or("unknown cause");
+            let place = info
+                .location()
+                .map(|l| format!(" at {}:{}", l.file(), l.line()))
+                .unwrap_or_default();
+            let _ = LAST_PANIC.try_with(|message| *message.borrow_mut() = format!("{what}{place}"));
+        }));
+    });
+}

@@ -1,0 +1,295 @@
+//! One instance of a model: life cycle, steps, FMU state. Access to variables is in [`crate::access`].
+
+use crate::ffi::{Callbacks, LAST_SUCCESSFUL_TIME, StatusKind, TERMINATED};
+use crate::guard::{Failure, Outcome};
+use crate::legality::Phase;
+use crate::log::{self, Category, Enabled, Log};
+use crate::model::Model;
+use crate::resource;
+use crate::snapshot::Snapshot;
+use crate::time::Step;
+use declaration::Access;
+use std::ffi::{CStr, CString};
+use std::path::PathBuf;
+
+/// A communication point may differ from the expected one by this share of the step: importers carry `i·h`, a running
+/// sum, or whole nanoseconds.
+const SAME_POINT: f64 = 1e-3;
+
+/// One instance.
+pub struct Instance<M: Model> {
+    callbacks: Callbacks,
+    name: CString,
+    enabled: Enabled,
+    resources: Option<PathBuf>,
+    /// What an FMU state holds.
+    pub(crate) now: Snapshot<M>,
+    /// In Initialization Mode: something was set since the model was last initialized.
+    pub(crate) stale: bool,
+    /// Strings handed to the importer, alive until its next call.
+    pub(crate) strings: Vec<CString>,
+}
+
+impl<M: Model> Instance<M> {
+    /// A new instance with start values.
+    pub(crate) fn new(
+        callbacks: Callbacks,
+        name: CString,
+        enabled: Enabled,
+        location: Option<&str>,
+    ) -> Self {
+        let now = Snapshot {
+            phase: Phase::Instantiated,
+            start_time: 0.0,
+            time: 0.0,
+            model: M::default(),
+        };
+        let mut instance = Self {
+            callbacks,
+            name,
+            enabled,
+            resources: None,
+            now,
+            stale: false,
+            strings: Vec::new(),
+        };
+        match location.map(resource::path) {
+            Some(Ok(path)) => instance.resources = Some(path),
+            Some(Err(reason)) => instance
+                .log()
+                .warning(format_args!("fmi2Instantiate: {reason}; ignored")),
+            None => {}
+        }
+        instance.now.model.located(instance.resources.as_deref());
+        instance
+    }
+
+    /// Where the instance is in its life.
+    pub fn phase(&self) -> Phase {
+        self.now.phase
+    }
+
+    pub(crate) fn enter_error(&mut self) {
+        self.now.phase = Phase::Error;
+    }
+
+    pub(crate) fn log(&self) -> Log<'_> {
+        Log::new(&self.callbacks, &self.name, self.enabled)
+    }
+
+    /// The model with a log beside it.
+    pub(crate) fn model_and_log(&mut self) -> (&mut M, Log<'_>) {
+        (
+            &mut self.now.model,
+            Log::new(&self.callbacks, &self.name, self.enabled),
+        )
+    }
+
+    /// fmi2SetDebugLogging
+    pub(crate) fn set_debug_logging(&mut self, on: bool, categories: &[Option<&str>]) -> Outcome {
+        let mut enabled = if categories.is_empty() {
+            Enabled::all(on)
+        } else {
+            self.enabled
+        };
+        for name in categories {
+            let known = |c: &&Category| Some(c.name().0) == name.and_then(c_name).as_deref();
+            match Category::LIST.iter().find(known) {
+                Some(&category) => enabled.set(category, on),
+                None if *name == log::ALL.to_str().ok() => enabled = Enabled::all(on),
+                None => {
+                    let expected = Category::LIST
+                        .map(|c| c.name().0.to_string_lossy().into_owned())
+                        .join(", ");
+                    let got = name.unwrap_or("(null or not UTF-8)");
+                    return refused(format!(
+                        "unknown log category '{got}', expected {expected} or logAll"
+                    ));
+                }
+            }
+        }
+        self.enabled = enabled;
+        Ok(())
+    }
+
+    /// fmi2SetupExperiment
+    pub(crate) fn setup_experiment(
+        &mut self,
+        tolerance: Option<f64>,
+        start_time: f64,
+        stop: Option<f64>,
+    ) -> Outcome {
+        if !start_time.is_finite() {
+            return refused(format!(
+                "startTime = {start_time} s, expected a finite time"
+            ));
+        }
+        if let Some(stop) = stop.filter(|&stop| stop.is_nan() || stop < start_time) {
+            return refused(format!(
+                "stopTime = {stop} s, expected at least startTime = {start_time} s"
+            ));
+        }
+        if let Some(tolerance) = tolerance.filter(|t| !t.is_finite() || *t < 0.0) {
+            return refused(format!(
+                "tolerance = {tolerance}, expected a finite value, at least 0"
+            ));
+        }
+        self.now.start_time = start_time;
+        self.now.time = start_time;
+        Ok(())
+    }
+
+    /// fmi2EnterInitializationMode
+    pub(crate) fn enter_initialization_mode(&mut self) -> Outcome {
+        self.now.phase = Phase::InitializationMode;
+        self.stale = true;
+        Ok(())
+    }
+
+    /// fmi2ExitInitializationMode
+    pub(crate) fn exit_initialization_mode(&mut self) -> Outcome {
+        self.initialize()?;
+        self.now.phase = Phase::StepComplete;
+        let start_time = self.now.start_time;
+        self.log().event(format_args!(
+            "{} initialized at t = {start_time} s",
+            M::DESCRIPTION.name
+        ));
+        Ok(())
+    }
+
+    /// Initializes the model if something was set since; a refusal keeps the model as it was.
+    pub(crate) fn initialize(&mut self) -> Outcome {
+        if self.stale {
+            let mut candidate = self.now.model.clone();
+            let start_time = self.now.start_time;
+            candidate
+                .initialize(start_time, &mut self.log())
+                .map_err(|refusal| refusal.0)?;
+            check_outputs(&mut candidate).map_err(Failure::Refused)?;
+            self.now.model = candidate;
+            self.stale = false;
+        }
+        Ok(())
+    }
+
+    /// fmi2Terminate
+    pub(crate) fn terminate(&mut self) -> Outcome {
+        self.now.phase = Phase::Terminated;
+        let time = self.now.time;
+        self.log().event(format_args!(
+            "{} terminated at t = {time} s",
+            M::DESCRIPTION.name
+        ));
+        Ok(())
+    }
+
+    /// fmi2Reset
+    pub(crate) fn reset(&mut self) -> Outcome {
+        self.now = Snapshot {
+            phase: Phase::Instantiated,
+            start_time: 0.0,
+            time: 0.0,
+            model: M::default(),
+        };
+        self.now.model.located(self.resources.as_deref());
+        self.stale = false;
+        Ok(())
+    }
+
+    /// fmi2DoStep
+    pub(crate) fn do_step(&mut self, t: f64, h: f64) -> Outcome {
+        if !(h.is_finite() && h > 0.0) {
+            return refused(format!(
+                "communicationStepSize = {h} s, expected a finite value above 0"
+            ));
+        }
+        let expected = self.now.time;
+        if !(t.is_finite()
+            && (t - expected).abs() <= SAME_POINT * h + 4.0 * f64::EPSILON * expected.abs())
+        {
+            return refused(format!(
+                "expected currentCommunicationPoint {expected} s, got {t} s"
+            ));
+        }
+        if t + h <= t {
+            return refused(format!(
+                "communicationStepSize = {h} s does not advance the time {t} s"
+            ));
+        }
+        let step = Step {
+            start_time: self.now.start_time,
+            t,
+            h,
+        };
+        let (model, mut log) = self.model_and_log();
+        model
+            .step(step, &mut log)
+            .map_err(|refusal| Failure::Broken(refusal.0))?;
+        check_outputs(model).map_err(Failure::Broken)?;
+        self.now.time = t + h;
+        Ok(())
+    }
+
+    /// fmi2GetRealStatus
+    pub(crate) fn real_status(&self, kind: StatusKind) -> Result<f64, Failure> {
+        match kind {
+            LAST_SUCCESSFUL_TIME => Ok(self.now.time),
+            _ => Err(Failure::Refused(format!(
+                "status kind {kind} is not supported, expected fmi2LastSuccessfulTime (2)"
+            ))),
+        }
+    }
+
+    /// fmi2GetBooleanStatus
+    pub(crate) fn boolean_status(&self, kind: StatusKind) -> Result<bool, Failure> {
+        match kind {
+            TERMINATED => Ok(false), // no model ends the run by itself
+            _ => Err(Failure::Refused(format!(
+                "status kind {kind} is not supported, expected fmi2Terminated (3)"
+            ))),
+        }
+    }
+
+    /// fmi2SetFMUstate
+    pub(crate) fn restore(&mut self, snapshot: &Snapshot<M>) -> Outcome {
+        self.now = snapshot.clone();
+        self.now.model.located(self.resources.as_deref());
+        self.stale = self.now.phase == Phase::InitializationMode;
+        Ok(())
+    }
+}
+
+/// A refusal as a result.
+pub(crate) fn refused<T>(reason: String) -> Result<T, Failure> {
+    Err(Failure::Refused(reason))
+}
+
+fn c_name(name: &str) -> Option<CString> {
+    CString::new(name).ok()
+}
+
+/// No NaN and no infinity may leave a model.
+fn check_outputs<M: Model>(model: &mut M) -> Result<(), String> {
+    for variable in M::DESCRIPTION.variables {
+        if let (true, Access::Real { at, unit, .. }) = (variable.is_calculated(), variable.access) {
+            let values = at(model);
+            if let Some(i) = values.iter().position(|value| !value.is_finite()) {
+                let value = values[i];
+                return Err(format!(
+                    "{} = {value} {}, expected a finite value",
+                    variable.element_name(i),
+                    unit.name
+                ));
+            }
+        }
+    }
+    Ok(())
+}
+
+/// The name under which an instance that could not be created logs.
+pub(crate) fn instance_name(name: Option<&str>) -> CString {
+    name.and_then(c_name)
+        .filter(|n| !n.is_empty())
+        .unwrap_or_else(|| CStr::to_owned(c"(unnamed)"))
+}

@@ -1,0 +1,48 @@
+//! The FMI 2.0 co-simulation C interface of any model.
+//!
+//! A model is a struct whose fields are its variables ([`declaration`]) and which can be initialized and stepped
+//! ([`Model`]). [`fmi2!`] turns it into the 34 C functions of the standard. This crate knows no robot; the smallest
+//! model, a first-order lag, is in `examples/lag.rs`.
+//!
+//! The life of a call, for every function alike:
+//! 1. the C function ([`fmi2!`], module [`functions`]) hands over to the guard with its name and a closure;
+//! 2. the guard ([`guard`]) checks the component, looks the function up in the legality table ([`legality`]) for the
+//!    instance's current phase, runs the closure with panics caught, logs a refusal and returns the status;
+//! 3. the closure is a method of [`instance::Instance`], which checks arguments, then changes the instance.
+//!
+//! What errors mean. A *refused call* (argument, order, value, bytes) returns `fmi2Error`, changes nothing and leaves
+//! the instance in the phase it was in. A caught panic or a failed model step returns `fmi2Error` too and enters the
+//! error phase, which only `fmi2Reset`, `fmi2SetFMUstate` and `fmi2FreeInstance` leave. `fmi2Warning`,
+//! `fmi2Discard`, `fmi2Pending` and `fmi2Fatal` are never returned.
+//!
+//! | module | what | FMI 2.0.5 |
+//! |---|---|---|
+//! | [`model`] | what a model must offer | |
+//! | [`time`] | communication steps, ticks, substeps | 4.2.1 |
+//! | [`log`] | messages by category | 2.1.5 |
+//! | [`ffi`] | C types and callbacks | 2.1.2, 2.1.5 |
+//! | [`legality`] | which call is legal in which phase, as one table | 4.2.4 |
+//! | [`guard`] | null, phase, panic, log, status | 2.1.3 |
+//! | [`instance`] | one instance: life cycle, variables, steps | 2.1.6, 2.1.7, 4.2.2 |
+//! | [`access`] | Get and Set by value reference | 2.1.7 |
+//! | [`snapshot`] | FMU state as bytes with a checked format | 2.1.8 |
+//! | [`resource`] | `fmuResourceLocation` as a path | 2.1.5 |
+//! | [`functions`] | the C functions, generic over the model | 2.1, 4.2 |
+
+pub mod access;
+pub mod ffi;
+pub mod functions;
+pub mod guard;
+mod handle;
+pub mod instance;
+pub mod legality;
+pub mod log;
+pub mod model;
+pub mod resource;
+pub mod snapshot;
+mod symbols;
+pub mod time;
+
+pub use log::Log;
+pub use model::{Model, Refusal};
+pub use time::{Step, Ticks};

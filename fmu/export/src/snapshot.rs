@@ -1,0 +1,115 @@
+//! FMU state: a copy of an instance, and its bytes.
+//!
+//! | offset | length | what |
+//! |---|---|---|
+//! | 0 | 8 | magic `FMI2STAT` |
+//! | 8 | 4 | version of this format, little-endian |
+//! | 12 | 38 | guid of the FMU, ASCII |
+//! | 50 | 8 | length of the payload, little-endian |
+//! | 58 | 4 | CRC-32 of the payload, little-endian |
+//! | 62 | … | payload: phase, times and the model, by serde and postcard (floats bit for bit) |
+
+use crate::legality::Phase;
+use crate::model::Model;
+use serde::{Deserialize, Serialize};
+
+const MAGIC: &[u8; 8] = b"FMI2STAT";
+const VERSION: u32 = 1;
+const GUID: std::ops::Range<usize> = 12..50;
+const HEADER: usize = 62;
+
+/// Everything of an instance that a run depends on.
+#[derive(Clone, Serialize, Deserialize)]
+#[serde(bound = "")]
+pub struct Snapshot<M: Model> {
+    /// Phase of the life cycle.
+    pub(crate) phase: Phase,
+    /// Start time of the experiment (s).
+    pub(crate) start_time: f64,
+    /// Current communication point (s).
+    pub(crate) time: f64,
+    /// The model with all parameters, inputs, outputs and states.
+    pub(crate) model: M,
+}
+
+impl<M: Model> Snapshot<M> {
+    /// The bytes.
+    ///
+    /// # Errors
+    /// A sentence when the model's serialization fails.
+    pub fn to_bytes(&self) -> Result<Vec<u8>, String> {
+        let payload = postcard::to_allocvec(self)
+            .map_err(|e| format!("the model cannot be serialized: {e}"))?;
+        let mut bytes = Vec::with_capacity(HEADER + payload.len());
+        bytes.extend_from_slice(MAGIC);
+        bytes.extend_from_slice(&VERSION.to_le_bytes());
+        bytes.extend_from_slice(M::DESCRIPTION.guid().as_bytes());
+        bytes.extend_from_slice(&(payload.len() as u64).to_le_bytes());
+        bytes.extend_from_slice(&crc32fast::hash(&payload).to_le_bytes());
+        debug_assert_eq!(bytes.len(), HEADER);
+        bytes.extend_from_slice(&payload);
+        Ok(bytes)
+    }
+
+    /// Reads the bytes back, in this process or another. Bytes after the payload are ignored.
+    ///
+    /// # Errors
+    /// A sentence that says what was expected and what came: too short, another magic, version, FMU or checksum.
+    pub fn from_bytes(bytes: &[u8]) -> Result<Self, String> {
+        if bytes.len() < HEADER {
+            return Err(format!(
+                "serialized state: expected at least {HEADER} bytes, got {}",
+                bytes.len()
+            ));
+        }
+        if &bytes[..8] != MAGIC {
+            return Err(
+                "serialized state: these bytes are not an FMU state of this exporter".into(),
+            );
+        }
+        let version = u32::from_le_bytes(word(bytes, 8));
+        if version != VERSION {
+            return Err(format!(
+                "serialized state: expected format version {VERSION}, got {version}"
+            ));
+        }
+        let (guid, own) = (String::from_utf8_lossy(&bytes[GUID]), M::DESCRIPTION.guid());
+        if guid != own {
+            return Err(format!(
+                "serialized state: expected guid {own}, got {guid} (another FMU or version)"
+            ));
+        }
+        let length = u64::from_le_bytes(word(bytes, 50));
+        let rest = &bytes[HEADER..];
+        let Some(payload) = usize::try_from(length).ok().and_then(|n| rest.get(..n)) else {
+            return Err(format!(
+                "serialized state: expected {length} bytes after the header, got {}",
+                rest.len()
+            ));
+        };
+        let (expected, got) = (
+            u32::from_le_bytes(word(bytes, 58)),
+            crc32fast::hash(payload),
+        );
+        if expected != got {
+            return Err(format!(
+                "serialized state: damaged, expected checksum {expected:08x}, got {got:08x}"
+            ));
+        }
+        match postcard::take_from_bytes(payload) {
+            Ok((snapshot, [])) => Ok(snapshot),
+            Ok((_, rest)) => Err(format!(
+                "serialized state: {} bytes too many for this model",
+                rest.len()
+            )),
+            Err(e) => Err(format!("serialized state: not a state of this model: {e}")),
+        }
+    }
+}
+
+/// `N` bytes at `offset` of a slice that is long enough.
+fn word<const N: usize>(bytes: &[u8], offset: usize) -> [u8; N] {
+    let mut word = [0; N];
+    word.copy_from_slice(&bytes[offset..offset + N]);
+    word
+}

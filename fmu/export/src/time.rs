@@ -1,0 +1,127 @@
+//! Communication steps and the ticks of a sampled model inside them.
+
+use serde::{Deserialize, Serialize};
+
+/// Share of the sample period within which a step's end and a tick count as the same instant: far above what an
+/// importer's rounding accumulates (1e-8 s after 2e5 steps), far below what matters.
+const SAME_INSTANT: f64 = 1e-3;
+
+/// One communication step, in the importer's time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Step {
+    /// Start time of the experiment (s).
+    pub start_time: f64,
+    /// Beginning of the step (s).
+    pub t: f64,
+    /// Length of the step (s), finite and positive.
+    pub h: f64,
+}
+
+impl Step {
+    /// Splits the step into equal substeps no longer than `longest` (s): their number and their length (s). The last
+    /// one ends exactly at `t + h`; no time is accumulated.
+    pub fn substeps(&self, longest: f64) -> (u32, f64) {
+        // A step of 25.000000001 substeps is one of 25: the excess is the importer's rounding.
+        let n = (self.h / longest - 1e-6)
+            .ceil()
+            .clamp(1.0, f64::from(u32::MAX));
+        (n as u32, self.h / n)
+    }
+}
+
+/// Integer tick counter of a sampled model: tick k happens at `start_time + k·T`.
+///
+/// A step from t to t + h runs the ticks in [t, t + h), whatever rounding the importer's times carry: many small steps
+/// and one large step run the same ticks.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Ticks {
+    next: u64,
+}
+
+impl Ticks {
+    /// The ticks that `step` runs, with sample period `T` (s); they count as run once this returns.
+    #[allow(
+        non_snake_case,
+        reason = "T is the sample period of the paper and of the standard texts"
+    )]
+    pub fn within(&mut self, step: &Step, T: f64) -> core::ops::Range<u64> {
+        let same = (SAME_INSTANT * T).min(0.5 * step.h);
+        let end = ((step.t - step.start_time + step.h - same) / T).ceil();
+        let first = self.next;
+        if end > first as f64 {
+            self.next = end as u64;
+        }
+        first..self.next
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn ticks(
+        times: impl Iterator<Item = (f64, f64)>,
+        start_time: f64,
+    ) -> Vec<core::ops::Range<u64>> {
+        let mut clock = Ticks::default();
+        times
+            .map(|(t, h)| clock.within(&Step { start_time, t, h }, 0.002))
+            .collect()
+    }
+
+    #[test]
+    fn the_first_step_runs_the_tick_at_the_start_time() {
+        for h in [1e-9, 1e-5, 0.002] {
+            assert_eq!(ticks(std::iter::once((7.0, h)), 7.0).first(), Some(&(0..1)));
+        }
+    }
+
+    #[test]
+    fn accumulated_and_multiplied_times_run_one_tick_a_step() {
+        let (start, h) = (0.3, 0.002);
+        let mut t = start;
+        let accumulated: Vec<_> = (0..200_000)
+            .map(|_| {
+                let now = t;
+                t += h;
+                (now, h)
+            })
+            .collect();
+        let multiplied = (0..200_000).map(|i| (start + f64::from(i) * h, h));
+        for (k, run) in ticks(accumulated.into_iter(), start)
+            .into_iter()
+            .enumerate()
+        {
+            assert_eq!(run, k as u64..k as u64 + 1);
+        }
+        for (k, run) in ticks(multiplied, start).into_iter().enumerate() {
+            assert_eq!(run, k as u64..k as u64 + 1);
+        }
+    }
+
+    #[test]
+    fn small_and_large_steps_run_the_same_ticks() {
+        for h in [0.002 / 10.0, 0.002 / 3.0, 0.003, 0.014, 0.2] {
+            let n = (2.0_f64 / h).round() as u32;
+            let run = ticks((0..n).map(|i| (f64::from(i) * h, h)), 0.0);
+            assert_eq!(
+                run.last().map(|r| r.end),
+                Some((f64::from(n) * h / 0.002 - 1e-3).ceil() as u64),
+                "h = {h}"
+            );
+            assert!(run.windows(2).all(|w| w[0].end == w[1].start));
+        }
+    }
+
+    #[test]
+    fn substeps_are_equal_and_end_at_the_end() {
+        let step = |h| Step {
+            start_time: 0.0,
+            t: 0.1,
+            h,
+        };
+        assert_eq!(step(0.002).substeps(8e-5), (25, 0.002 / 25.0));
+        assert_eq!(step(0.002_000_000_000_000_002).substeps(8e-5).0, 25);
+        assert_eq!(step(1e-7).substeps(8e-5), (1, 1e-7));
+    }
+}

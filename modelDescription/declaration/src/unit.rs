@@ -1,0 +1,67 @@
+//! Units with their SI base exponents (FMI 2.0, section 2.2.2).
+
+/// Exponents of the SI base units.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Base {
+    /// kilogram
+    pub kg: i8,
+    /// metre
+    pub m: i8,
+    /// second
+    pub s: i8,
+    /// radian (FMI treats the angle as a base unit)
+    pub rad: i8,
+}
+
+/// A unit in which a variable may be displayed: `display = factor · value`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Display {
+    /// Name, for instance `deg`.
+    pub name: &'static str,
+    /// Factor from the SI value to the displayed value.
+    pub factor: f64,
+}
+
+/// A unit: its name and its SI base exponents; values are SI, so factor 1 and offset 0.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Unit {
+    /// Name as in the XML, for instance `N.s/m`.
+    pub name: &'static str,
+    /// SI base exponents.
+    pub base: Base,
+    /// Preferred display unit, if it differs.
+    pub display: Option<Display>,
+}
+
+const fn unit(name: &'static str, kg: i8, m: i8, s: i8, rad: i8) -> Unit {
+    Unit {
+        name,
+        base: Base { kg, m, s, rad },
+        display: None,
+    }
+}
+
+/// Dimensionless.
+pub const NONE: Unit = unit("1", 0, 0, 0, 0);
+/// metre
+pub const METRE: Unit = unit("m", 0, 1, 0, 0);
+/// metre per second
+pub const METRE_PER_SECOND: Unit = unit("m/s", 0, 1, -1, 0);
+/// metre per second squared
+pub const METRE_PER_SECOND_SQUARED: Unit = unit("m/s2", 0, 1, -2, 0);
+/// kilogram
+pub const KILOGRAM: Unit = unit("kg", 1, 0, 0, 0);
+/// newton
+pub const NEWTON: Unit = unit("N", 1, 1, -2, 0);
+/// newton per metre
+pub const NEWTON_PER_METRE: Unit = unit("N/m", 1, 0, -2, 0);
+/// newton second per metre
+pub const NEWTON_SECOND_PER_METRE: Unit = unit("N.s/m", 1, 0, -1, 0);
+/// joule
+pub const JOULE: Unit = unit("J", 1, 2, -2, 0);
+/// second
+pub const SECOND: Unit = unit("s", 0, 0, 1, 0);
+/// one per second
+pub const PER_SECOND: Unit = unit("1/s", 0, 0, -1, 0);
+/// hertz
+pub const HERTZ: Unit = unit("Hz", 0, 0, -1, 0);

@@ -1,0 +1,244 @@
+//! The row: one variable of a model, or one vector of them.
+
+use crate::Unit;
+
+/// Who computes the variable (FMI 2.0, section 2.2.7).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Causality {
+    /// Set by the importer before the run (or, if tunable, during it).
+    Parameter,
+    /// Computed from parameters.
+    CalculatedParameter,
+    /// Provided by another model.
+    Input,
+    /// Provided to other models.
+    Output,
+    /// Internal, readable.
+    Local,
+}
+
+/// When the variable may change (FMI 2.0, section 2.2.7).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Variability {
+    /// After initialization never.
+    Fixed,
+    /// Between steps, set by the importer.
+    Tunable,
+    /// At ticks only.
+    Discrete,
+    /// At any time.
+    Continuous,
+}
+
+/// One item of an enumeration.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Item {
+    /// Value in the interface, from 1.
+    pub value: i32,
+    /// Name in the interface.
+    pub name: &'static str,
+    /// What it means.
+    pub about: &'static str,
+}
+
+/// An enumeration type.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Enumeration {
+    /// Name of the type.
+    pub name: &'static str,
+    /// What it is.
+    pub about: &'static str,
+    /// Its items, in ascending order of value.
+    pub items: &'static [Item],
+}
+
+/// Type of a variable and where it lives in the model `M`. A function returns the whole vector; a scalar is a vector of
+/// length one.
+pub enum Access<M> {
+    /// fmi2Real
+    Real {
+        /// Unit of the value.
+        unit: Unit,
+        /// Smallest accepted value (−∞: none).
+        min: f64,
+        /// Largest accepted value (∞: none).
+        max: f64,
+        /// Borrows the values.
+        at: fn(&mut M) -> &mut [f64],
+    },
+    /// fmi2Integer
+    Integer {
+        /// Smallest accepted value (`i32::MIN`: none).
+        min: i32,
+        /// Largest accepted value (`i32::MAX`: none).
+        max: i32,
+        /// Borrows the values.
+        at: fn(&mut M) -> &mut [i32],
+    },
+    /// fmi2Boolean
+    Boolean {
+        /// Borrows the values.
+        at: fn(&mut M) -> &mut [bool],
+    },
+    /// fmi2String
+    String {
+        /// Borrows the values.
+        at: fn(&mut M) -> &mut [String],
+    },
+    /// fmi2Integer restricted to the items of an enumeration
+    Enumeration {
+        /// The type.
+        of: &'static Enumeration,
+        /// Borrows the values.
+        at: fn(&mut M) -> &mut [i32],
+    },
+}
+
+impl<M> Clone for Access<M> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+impl<M> Copy for Access<M> {}
+
+/// One row: a scalar (`len == 1`), or a vector whose name contains `[i]` and which expands to `[1]` … `[len]`.
+pub struct Variable<M: 'static> {
+    /// Name, the paper's symbol where there is one.
+    pub name: &'static str,
+    /// Number of scalars.
+    pub len: usize,
+    /// Type and place.
+    pub access: Access<M>,
+    /// Causality.
+    pub causality: Causality,
+    /// Variability.
+    pub variability: Variability,
+    /// Inputs and parameters on which an output's value right after initialization depends, by row name.
+    pub initially_from: &'static [&'static str],
+    /// What it is: sign, frame, equation label.
+    pub about: &'static str,
+}
+
+impl<M> Clone for Variable<M> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+impl<M> Copy for Variable<M> {}
+
+impl<M> Variable<M> {
+    /// A row with its place; the causality is said by the next call.
+    pub const fn new(name: &'static str, len: usize, access: Access<M>) -> Self {
+        Self {
+            name,
+            len,
+            access,
+            causality: Causality::Local,
+            variability: Variability::Discrete,
+            initially_from: &[],
+            about: "",
+        }
+    }
+
+    const fn as_(mut self, causality: Causality, variability: Variability) -> Self {
+        self.causality = causality;
+        self.variability = variability;
+        self
+    }
+
+    /// An input.
+    pub const fn input(self, variability: Variability) -> Self {
+        self.as_(Causality::Input, variability)
+    }
+
+    /// An output.
+    pub const fn output(self, variability: Variability) -> Self {
+        self.as_(Causality::Output, variability)
+    }
+
+    /// A parameter, fixed or tunable.
+    pub const fn parameter(self, variability: Variability) -> Self {
+        self.as_(Causality::Parameter, variability)
+    }
+
+    /// A parameter that the model computes from others.
+    pub const fn calculated_parameter(self, variability: Variability) -> Self {
+        self.as_(Causality::CalculatedParameter, variability)
+    }
+
+    /// An internal variable that can be read.
+    pub const fn local(self, variability: Variability) -> Self {
+        self.as_(Causality::Local, variability)
+    }
+
+    /// The description.
+    pub const fn about(mut self, about: &'static str) -> Self {
+        self.about = about;
+        self
+    }
+
+    /// What the value right after initialization depends on.
+    pub const fn initially_from(mut self, names: &'static [&'static str]) -> Self {
+        self.initially_from = names;
+        self
+    }
+
+    /// Bounds of a Real, both included; a Set outside of them is refused.
+    ///
+    /// # Panics
+    /// When the row is not a Real (at compile time: rows are constants).
+    pub const fn within(mut self, low: f64, high: f64) -> Self {
+        self.access = match self.access {
+            Access::Real { unit, at, .. } => Access::Real {
+                unit,
+                min: low,
+                max: high,
+                at,
+            },
+            _ => panic!("within() is for Real rows"),
+        };
+        self
+    }
+
+    /// Lower bound of a Real, included.
+    pub const fn at_least(self, low: f64) -> Self {
+        self.within(low, f64::INFINITY)
+    }
+
+    /// Bounds of an Integer, both included.
+    ///
+    /// # Panics
+    /// When the row is not an Integer (at compile time: rows are constants).
+    pub const fn within_integers(mut self, low: i32, high: i32) -> Self {
+        self.access = match self.access {
+            Access::Integer { at, .. } => Access::Integer {
+                min: low,
+                max: high,
+                at,
+            },
+            _ => panic!("within_integers() is for Integer rows"),
+        };
+        self
+    }
+
+    /// Name of one element, counted from 0 here and from 1 in the name: `[i]` becomes `[1]`, `[2]`, …
+    pub fn element_name(&self, element: usize) -> String {
+        self.name.replace("[i]", &format!("[{}]", element + 1))
+    }
+
+    /// Whether the importer may still set it during the run.
+    pub const fn is_tunable(&self) -> bool {
+        matches!(
+            (self.causality, self.variability),
+            (Causality::Parameter, Variability::Tunable)
+        )
+    }
+
+    /// Whether the model computes it, so that it has no start value.
+    pub const fn is_calculated(&self) -> bool {
+        matches!(
+            self.causality,
+            Causality::Output | Causality::CalculatedParameter | Causality::Local
+        )
+    }
+}
