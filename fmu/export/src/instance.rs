@@ -212,9 +212,9 @@ impl<M: Model> Instance<M> {
                 "expected currentCommunicationPoint {expected} s, got {t} s"
             ));
         }
-        if t + h <= t {
+        if t + h <= t || !(t + h).is_finite() {
             return refused(format!(
-                "communicationStepSize = {h} s does not advance the time {t} s"
+                "communicationStepSize = {h} s does not advance the time {t} s to a later finite time"
             ));
         }
         let step = Step {

@@ -7,8 +7,9 @@
 //! * Get is accepted right after instantiation and reads the start values (the standard: from Initialization Mode on);
 //! * Set of inputs is accepted before Initialization Mode (the standard: only variables with `initial="exact"`);
 //! * `fmi2EnterInitializationMode` is accepted without `fmi2SetupExperiment` (start time 0, no stop time);
-//! * `fmi2GetRealStatus(fmi2LastSuccessfulTime)` and `fmi2GetBooleanStatus(fmi2Terminated)` are answered at any time after
-//!   initialization (the standard: only while or after a step failed or is pending).
+//! * `fmi2GetRealStatus(fmi2LastSuccessfulTime)` and `fmi2GetBooleanStatus(fmi2Terminated)` are answered in the error phase
+//!   too (the standard: not there), where the last successful time is what one wants to know; the other status functions
+//!   and `fmi2CancelStep` (the standard: while a step is pending only) are refused anyway, with what is not supported.
 
 /// Where an instance is in its life.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]

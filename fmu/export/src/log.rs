@@ -116,12 +116,14 @@ impl<'a> Log<'a> {
     }
 }
 
-/// Finished text: the importer hands it to printf, where `%` starts a directive, and some importers expand `#`.
+/// Finished text in one line: the importer hands it to printf, where `%` starts a directive, and some importers expand
+/// `#`. Line breaks come from panic messages (`assert_eq!` writes three lines) and from what an importer passed.
 fn finished(message: fmt::Arguments<'_>) -> CString {
     let text = message
         .to_string()
         .replace('%', " percent")
         .replace('#', "no. ")
-        .replace('\0', "");
+        .replace('\0', "")
+        .replace(char::is_control, " ");
     CString::new(text.trim_end()).unwrap_or_default()
 }

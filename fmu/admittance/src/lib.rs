@@ -1,0 +1,102 @@
+//! The passivity-based admittance laws, sampled, with their energy ledger.
+//!
+//! A nominal mass that the human pushes, and a PI velocity coupling between it and the robot, in both directions. The
+//! robot's model does not appear: the law sees the position q and the human's force f_h at each tick and says a force.
+//! One axis is [`Axis`]; a testbed is one of them, a task space with diagonal gains is several of them under one
+//! ledger: [`Admittance`].
+//!
+//! ```
+//! use admittance::{Admittance, Gains, Law, Settings};
+//! use nalgebra::Vector1;
+//!
+//! let settings = Settings { law: Law::PassiveBounded, T: 0.002, ..Settings::default() };
+//! let gains = Gains { M_n: 5.0, D_n: 0.5, K: 30.0, K_P: 10.0, f_max: 12.5 };
+//! let mut law = Admittance::new(settings, [gains])?;
+//!
+//! // One tick a sample: the first one engages with q_n = q and v_n = 0.
+//! let first = law.step(&Vector1::new(0.3), &Vector1::new(5.0));
+//! assert_eq!((first.q_n.x, first.e_nr.x), (0.3, 0.0));
+//!
+//! // Pushed for 20 s against something that does not give way, the force stays within its limit.
+//! let tick = (1..10_000).map(|_| law.step(&Vector1::new(0.3), &Vector1::new(5.0))).last().unwrap();
+//! assert_eq!(tick.f.x, 12.5);
+//! assert!((30.0 * 10.0 * tick.e_nr.x).abs() <= 12.5 * (1.0 + 1e-15)); // the product's rounding
+//! assert!(law.ledger().G() <= 0.0);
+//! # Ok::<(), admittance::ParameterError>(())
+//! ```
+//!
+//! | symbol | equation | unit (linear axis) | item |
+//! |---|---|---|---|
+//! | q_n, dq_n | M_n ddq_n + D_n dq_n = f_h − alpha y (eq:obs_dyn) | m, m/s | [`Axis`] |
+//! | e_nr | q_n − q | m | [`Tick::e_nr`] |
+//! | dq | (q_k − q_{k−1})/T, low pass optional | m/s | [`Motion`] |
+//! | y | de_nr + K_P e_nr | m/s | [`midpoint::coupled`] |
+//! | tau_a, f_a | K y (eq:dob_input), limited | N | [`Tick::f`] |
+//! | alpha | the unit damper that the paper hides | N·s/m | [`Settings::alpha`] |
+//! | M_n, D_n, K, K_P, f_max | | kg, N·s/m, N·s/m, 1/s, N | [`Gains`] |
+//! | H | K(½ M_n v_n²/alpha + ½ K_P e²) | J | [`storage::stored`] |
+//! | G, E | ΔG = ΔH + f·Δq − (K/alpha) f_h v_m T, E ← min(E_0, E − ΔG) | J | [`Ledger`] |
+//!
+//! On a rotary axis read rad for m, N·m for N, kg·m² for kg. Forces act on the robot and are positive along the axis; q,
+//! q_n and f_h are components along the same axis, in whatever frame the caller uses.
+//!
+//! A tick has three parts, in this order:
+//! 1. [`propose`](Admittance::propose): from q and f_h of this tick, the force that each axis asks for. Pure.
+//! 2. The caller may find that its actuators deliver less, as one factor s in [0, 1] for all axes.
+//! 3. [`commit`](Admittance::commit): the nominal moves on, feeling what its [`Law`] says.
+//!
+//! | module | what |
+//! |---|---|
+//! | [`law`] | which reaction the nominal feels: the laws by number and name |
+//! | [`parameters`] | [`Settings`], [`Gains`], their checks and the error that names the culprit |
+//! | [`motion`] | backward difference, low pass, the bounds of the passivity argument |
+//! | [`midpoint`] | the implicit midpoint rule: the law's arithmetic |
+//! | [`axis`] | one axis: slip, midpoint, clamp, reset |
+//! | [`storage`] | the energy that an axis holds |
+//! | [`retune`] | live gain changes that do not raise it |
+//! | [`ledger`] | what the sampled law created, and the tank |
+//! | [`admittance`] | N axes under one ledger |
+//!
+//! No heap, no clock, no I/O, no unsafe, no panic; it depends on `nalgebra` and `libm`. The feature `serde` makes the
+//! state storable.
+
+#![no_std]
+#![forbid(unsafe_code)]
+#![allow(
+    non_snake_case,
+    reason = "the paper's symbols with its capitals: M_n, K_P, T, H, G"
+)]
+
+pub mod admittance;
+pub mod axis;
+pub mod law;
+pub mod ledger;
+pub mod midpoint;
+pub mod motion;
+pub mod parameters;
+pub mod retune;
+pub mod storage;
+
+pub use admittance::{Admittance, Proposal, Tick};
+pub use axis::Axis;
+pub use law::Law;
+pub use ledger::Ledger;
+pub use motion::Motion;
+pub use parameters::{Gains, ParameterError, Settings};
+
+/// sat(x): x limited to ±`bound`; NaN stays NaN.
+pub(crate) fn sat(x: f64, bound: f64) -> f64 {
+    if x > bound {
+        bound
+    } else if x < -bound {
+        -bound
+    } else {
+        x
+    }
+}
+
+/// Zero in place of a decaying state that would otherwise reach the denormal numbers, where arithmetic is slow. It only
+/// ever lowers the energy that the state holds.
+pub(crate) fn floored(x: f64) -> f64 {
+    if libm::fabs(x) < 1e-150 { 0.0 } else { x }
+}

@@ -1,0 +1,66 @@
+//! The implicit midpoint rule for (e, v_n): the law's arithmetic, without limits and without memory.
+//!
+//! With v_m = (v_n + v_n⁺)/2 and w = v_m − dq, the robot's velocity dq held over the sample:
+//!
+//! ```text
+//! M_n (v_n⁺ − v_n)/T = f_h − D_n v_m − alpha y        eq:obs_dyn
+//! e⁺ = e + T w
+//! y  = w + K_P (e + T w/2)                            eq:dob_input, tau = K y
+//! ```
+
+use crate::Gains;
+
+/// What one sample of the law starts from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sample {
+    /// Position error q_n − q, m.
+    pub e: f64,
+    /// Nominal velocity, m/s.
+    pub v_n: f64,
+    /// The robot's velocity, m/s.
+    pub dq: f64,
+    /// Force of the human on the handle, N.
+    pub f_h: f64,
+}
+
+/// What one sample of the law arrives at.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Midpoint {
+    /// Nominal velocity at the middle of the sample, m/s.
+    pub v_m: f64,
+    /// PI output at the middle of the sample, m/s.
+    pub y: f64,
+}
+
+/// Nominal and coupling solved together: the nominal feels alpha·y. With alpha = 0 it feels nothing.
+///
+/// c = alpha(1 + K_P T/2)
+/// v_m = (2 M_n v_n/T + f_h + alpha(dq + K_P T dq/2 − K_P e)) / (2 M_n/T + D_n + c)
+/// y = (v_m − dq) + K_P(e + T(v_m − dq)/2)
+pub fn coupled(gains: &Gains, alpha: f64, T: f64, sample: &Sample) -> Midpoint {
+    let Gains { M_n, D_n, K_P, .. } = *gains;
+    let Sample { e, v_n, dq, f_h } = *sample;
+    let c = alpha * (1.0 + K_P * T / 2.0);
+    let v_m = (2.0 * M_n * v_n / T + f_h + alpha * (dq + K_P * T * dq / 2.0 - K_P * e))
+        / (2.0 * M_n / T + D_n + c);
+    let y = (v_m - dq) + K_P * (e + T * (v_m - dq) / 2.0);
+    Midpoint { v_m, y }
+}
+
+/// The nominal under a given reaction alpha·y_s, y_s being what the limits left of y (m/s). Returns v_m (m/s).
+///
+/// v_m = (2 M_n v_n/T + f_h − alpha y_s) / (2 M_n/T + D_n)
+pub fn driven(gains: &Gains, alpha: f64, T: f64, sample: &Sample, y_s: f64) -> f64 {
+    let Gains { M_n, D_n, .. } = *gains;
+    let Sample { v_n, f_h, .. } = *sample;
+    (2.0 * M_n * v_n / T + f_h - alpha * y_s) / (2.0 * M_n / T + D_n)
+}
+
+/// The nominal velocity at which the coupling asks for exactly y_s (m/s): while it slips, the nominal need not run ahead
+/// of the robot any faster than that.
+///
+/// v_b = (y_s − K_P e)/(1 + K_P T/2) + dq
+pub fn at_the_bound(gains: &Gains, T: f64, sample: &Sample, y_s: f64) -> f64 {
+    let Sample { e, dq, .. } = *sample;
+    (y_s - gains.K_P * e) / (1.0 + gains.K_P * T / 2.0) + dq
+}

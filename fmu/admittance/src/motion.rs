@@ -1,0 +1,59 @@
+//! What the law makes of the sensed positions.
+
+use crate::{Settings, floored};
+use core::f64::consts::TAU;
+
+/// The robot's velocity on one axis, from positions alone.
+///
+/// dq = (q_k − q_{k−1})/T, 0 at the first tick; with a low pass of corner frequency f_c,
+/// dq ← dq + (1 − exp(−2π f_c T))·((q_k − q_{k−1})/T − dq).
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Motion {
+    q: Option<f64>,
+    difference: Option<f64>,
+    dq: f64,
+    outside_bounds: bool,
+}
+
+impl Motion {
+    /// The motion after `q` (m) has been sensed at a tick.
+    #[must_use]
+    pub fn sensed(self, q: f64, settings: &Settings) -> Self {
+        let Some(last) = self.q else {
+            return Self {
+                q: Some(q),
+                ..Self::default()
+            };
+        };
+        let difference = (q - last) / settings.T;
+        let change = self.difference.map_or(0.0, |before| difference - before);
+        Self {
+            q: Some(q),
+            difference: Some(difference),
+            dq: if settings.dq_cutoff > 0.0 {
+                floored(self.dq + weight(settings) * (difference - self.dq))
+            } else {
+                difference
+            },
+            outside_bounds: libm::fabs(difference) > settings.v_max
+                || libm::fabs(change) > settings.a_max * settings.T,
+        }
+    }
+
+    /// The velocity that the law uses, m/s.
+    pub fn dq(&self) -> f64 {
+        self.dq
+    }
+
+    /// Whether the motion since the last tick exceeded v_max or a_max, within which the passivity argument is made. The
+    /// first interval has no predecessor to accelerate from and is held against v_max only.
+    pub fn outside_bounds(&self) -> bool {
+        self.outside_bounds
+    }
+}
+
+/// 1 − exp(−2π f_c T): the exact sampled first-order low pass.
+fn weight(settings: &Settings) -> f64 {
+    -libm::expm1(-TAU * settings.dq_cutoff * settings.T)
+}

@@ -1,0 +1,206 @@
+//! Parameters, checked when a law is built.
+
+use crate::Law;
+use core::fmt;
+
+/// What all axes share and what stays fixed during a run.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Settings {
+    /// The law.
+    pub law: Law,
+    /// Damper between y (a velocity) and the reaction on the nominal (a force), N·s/m, ≥ 0. The paper adds K⁻¹tau_a to
+    /// a force (eq:obs_dyn), which hides a unit damper: 1 is the paper. [`Law::Standard`] has no reaction whatever it is.
+    pub alpha: f64,
+    /// Sample period, s.
+    pub T: f64,
+    /// Whether the force of a tick reaches the robot one sample later (the first one being 0). It changes no force: it
+    /// tells the ledger in which interval a force did its work.
+    pub delayed: bool,
+    /// Corner frequency of a first-order low pass on dq, Hz; 0 = off.
+    pub dq_cutoff: f64,
+    /// Energy with which the tank starts and above which it does not fill, J.
+    pub E_0: f64,
+    /// Largest speed for which the passivity argument is made, m/s.
+    pub v_max: f64,
+    /// Largest acceleration for which the passivity argument is made, m/s².
+    pub a_max: f64,
+}
+
+impl Default for Settings {
+    /// The testbed's: 500 Hz, `passive_bounded`, alpha = 1 N·s/m, no delay, no low pass.
+    fn default() -> Self {
+        Self {
+            law: Law::PassiveBounded,
+            alpha: 1.0,
+            T: 0.002,
+            delayed: false,
+            dq_cutoff: 0.0,
+            E_0: 10.0,
+            v_max: 10.0,
+            a_max: 1e4,
+        }
+    }
+}
+
+/// What each axis has of its own and what may be changed during a run.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Gains {
+    /// Nominal mass, kg, > 0.
+    pub M_n: f64,
+    /// Nominal damping, N·s/m, ≥ 0.
+    pub D_n: f64,
+    /// Control gain, N·s/m, > 0.
+    pub K: f64,
+    /// Ratio of the coupling's spring to its damper, 1/s, > 0.
+    pub K_P: f64,
+    /// Largest force of this axis on the robot, N, > 0. Infinite where nothing but the caller's factor limits.
+    pub f_max: f64,
+}
+
+/// A parameter that a law cannot be built with.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ParameterError {
+    /// A value out of its range.
+    OutOfRange {
+        /// The parameter.
+        name: &'static str,
+        /// The axis it belongs to, from 1; `None` if all share it or there is one axis only.
+        axis: Option<usize>,
+        /// The value.
+        value: f64,
+        /// The range.
+        expected: &'static str,
+    },
+    /// A law of [`Law`] that this crate does not compute.
+    NotOffered(Law),
+    /// A number that stands for no law.
+    UnknownLaw(i32),
+}
+
+impl fmt::Display for ParameterError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Self::OutOfRange {
+                name,
+                axis: None,
+                value,
+                expected,
+            } => {
+                write!(f, "{name} = {value}: expected {expected}")
+            }
+            Self::OutOfRange {
+                name,
+                axis: Some(axis),
+                value,
+                expected,
+            } => {
+                write!(f, "{name}[{axis}] = {value}: expected {expected}")
+            }
+            Self::NotOffered(law) => {
+                write!(
+                    f,
+                    "law = {} ({}) is not offered: expected ",
+                    law.number(),
+                    law.name()
+                )?;
+                offered(f)
+            }
+            Self::UnknownLaw(number) => {
+                write!(f, "law = {number}: expected ")?;
+                offered(f)
+            }
+        }
+    }
+}
+
+impl core::error::Error for ParameterError {}
+
+/// `1 (standard), 2 (passive), …`
+fn offered(f: &mut fmt::Formatter<'_>) -> fmt::Result {
+    for (i, law) in Law::ALL
+        .into_iter()
+        .filter(|law| law.is_offered())
+        .enumerate()
+    {
+        let separator = if i == 0 { "" } else { ", " };
+        write!(f, "{separator}{} ({})", law.number(), law.name())?;
+    }
+    Ok(())
+}
+
+/// A range: what it is called and whether a value lies in it. NaN lies in none.
+type Range = (&'static str, fn(f64) -> bool);
+const POSITIVE: Range = ("a finite value greater than 0", |x| {
+    x > 0.0 && x.is_finite()
+});
+const NOT_NEGATIVE: Range = ("a finite value not less than 0", |x| {
+    x >= 0.0 && x.is_finite()
+});
+const LIMIT: Range = ("a value greater than 0", |x| x > 0.0);
+
+fn check(axis: Option<usize>, list: &[(&'static str, f64, Range)]) -> Result<(), ParameterError> {
+    for &(name, value, (expected, contains)) in list {
+        if !contains(value) {
+            return Err(ParameterError::OutOfRange {
+                name,
+                axis,
+                value,
+                expected,
+            });
+        }
+    }
+    Ok(())
+}
+
+impl Settings {
+    /// Whether a law can be built with them.
+    ///
+    /// # Errors
+    /// The first parameter out of its range, or a law that is not offered.
+    pub fn check(&self) -> Result<(), ParameterError> {
+        if !self.law.is_offered() {
+            return Err(ParameterError::NotOffered(self.law));
+        }
+        check(
+            None,
+            &[
+                ("alpha", self.alpha, NOT_NEGATIVE),
+                ("T", self.T, POSITIVE),
+                ("dq_cutoff", self.dq_cutoff, NOT_NEGATIVE),
+                ("E_0", self.E_0, NOT_NEGATIVE),
+                ("v_max", self.v_max, LIMIT),
+                ("a_max", self.a_max, LIMIT),
+            ],
+        )
+    }
+
+    /// The damper through which the nominal feels y, N·s/m: alpha, or 0 under [`Law::Standard`].
+    pub fn reaction(&self) -> f64 {
+        if self.law == Law::Standard {
+            0.0
+        } else {
+            self.alpha
+        }
+    }
+}
+
+impl Gains {
+    /// Whether an axis can be built with them; `axis` (from 1) is for the message.
+    ///
+    /// # Errors
+    /// The first parameter out of its range.
+    pub fn check(&self, axis: Option<usize>) -> Result<(), ParameterError> {
+        check(
+            axis,
+            &[
+                ("M_n", self.M_n, POSITIVE),
+                ("D_n", self.D_n, NOT_NEGATIVE),
+                ("K", self.K, POSITIVE),
+                ("K_P", self.K_P, POSITIVE),
+                ("f_max", self.f_max, LIMIT),
+            ],
+        )
+    }
+}

@@ -1,0 +1,122 @@
+//! Live gain changes do not raise the stored energy, whatever changes and however stretched the spring is.
+#![allow(non_snake_case, reason = "the paper's symbols")]
+
+mod robot;
+use admittance::retune::taken_over;
+use admittance::storage::{extension, spring, stored};
+use admittance::{Gains, Law};
+use proptest::prelude::*;
+use robot::{tick, unlimited};
+
+const LAWS: [Law; 4] = [
+    Law::Standard,
+    Law::Passive,
+    Law::PassiveApplied,
+    Law::PassiveBounded,
+];
+
+fn gains() -> impl Strategy<Value = Gains> {
+    (0.1..20.0, 0.0..20.0, 1.0..1000.0, 1.0..50.0, 1.0..400.0).prop_map(
+        |(M_n, D_n, K, K_P, f_max)| Gains {
+            M_n,
+            D_n,
+            K,
+            K_P,
+            f_max,
+        },
+    )
+}
+
+proptest! {
+    #[test]
+    fn no_change_raises_the_stored_energy(
+        law in prop::sample::select(&LAWS[..]), from in gains(), to in gains(), e in -2.0..2.0_f64, v_n in -5.0..5.0_f64,
+    ) {
+        let (e_new, v_new) = taken_over(law, &from, &to, e, v_n);
+        let (before, after) = (stored(law, &from, 1.0, e, v_n), stored(law, &to, 1.0, e_new, v_new));
+        prop_assert!(after <= before * (1.0 + 1e-14)); // a square root, a product
+        // Nor does a change turn anything round.
+        prop_assert!(e_new * e >= 0.0 && v_new * v_n >= 0.0);
+    }
+
+    #[test]
+    fn the_extension_is_the_inverse_of_the_spring(
+        law in prop::sample::select(&LAWS[..]), gains in gains(), e in -2.0..2.0_f64,
+    ) {
+        let back = extension(law, &gains, spring(law, &gains, e));
+        prop_assert!((back - e.abs()).abs() <= 1e-14 * (e.abs() + gains.f_max / (gains.K * gains.K_P)));
+    }
+}
+
+/// Raising keeps the spring's force, lowering its extension: what a hand feels does not jump up.
+#[test]
+fn raising_keeps_the_springs_force_and_lowering_its_extension() {
+    let (soft, stiff) = (
+        unlimited(5.0, 0.5, 30.0, 10.0),
+        unlimited(5.0, 0.5, 60.0, 20.0),
+    );
+    let (e, _) = taken_over(Law::Passive, &soft, &stiff, 0.04, 0.0);
+    assert!((e - 0.01).abs() < 1e-16); // 0.04·(30·10)/(60·20)
+    let (e, _) = taken_over(Law::Passive, &stiff, &soft, 0.04, 0.0);
+    assert_eq!(e, 0.04);
+}
+
+/// Φ beyond its limit is f_max|e| − f_max²/(2 K K_P), and its slope the limited force.
+#[test]
+fn the_storage_of_the_applied_law_is_the_integral_of_the_limited_force() {
+    let gains = Gains {
+        M_n: 5.0,
+        D_n: 0.5,
+        K: 30.0,
+        K_P: 10.0,
+        f_max: 12.5,
+    };
+    let n = 100_000;
+    for end in [0.02, 0.3] {
+        let h = end / f64::from(n);
+        let force = |s: f64| (300.0 * s).min(12.5);
+        let integral: f64 = (0..n).map(|i| h * force(h * (f64::from(i) + 0.5))).sum();
+        // One cell of the sum holds the kink: 300 h²/8 at most, beside the rounding of 1e5 terms.
+        assert!(
+            (spring(Law::PassiveApplied, &gains, end) - integral).abs() < 300.0 * h * h + 1e-12
+        );
+    }
+    assert!(spring(Law::Passive, &gains, 0.3) > 3.0 * spring(Law::PassiveApplied, &gains, 0.3));
+}
+
+/// The same within the loop: tuned at every tick to other gains, nothing is created at a robot that stands still.
+#[test]
+fn tuning_at_every_tick_creates_nothing() {
+    for which in LAWS.into_iter().skip(1) {
+        let base = Gains {
+            M_n: 5.0,
+            D_n: 0.5,
+            K: 30.0,
+            K_P: 10.0,
+            f_max: 12.5,
+        };
+        let mut law = robot::law(which, 0.002, base);
+        for k in 0..5000_u32 {
+            let vary = |period: u32| if k % period < period / 2 { 3.0 } else { 1.0 };
+            let f_max = if which == Law::Passive {
+                f64::INFINITY
+            } else {
+                12.5 * vary(14)
+            };
+            let gains = Gains {
+                M_n: 5.0 * vary(4),
+                K: 30.0 * vary(6),
+                K_P: 10.0 * vary(10),
+                f_max,
+                ..base
+            };
+            law.tune([gains]).expect("valid gains");
+            let G = law.ledger().G();
+            tick(&mut law, 0.3, if k < 3000 { 6.0 } else { -6.0 });
+            assert!(
+                law.ledger().G() - G <= 1e-12 * (1.0 + G.abs()),
+                "{which:?} at tick {k}"
+            );
+        }
+    }
+}

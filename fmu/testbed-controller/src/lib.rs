@@ -1,0 +1,41 @@
+//! TestbedController: the admittance laws for the one-axis testbed, as a model that FMI can export.
+//!
+//! Sampled at T: at each tick it latches the position q and the human's force tau_h, runs one tick of the law and holds
+//! the force tau_a until the next. All outputs are those at the tick that `tick` names.
+//!
+//! ```
+//! use export::{Log, Model, Step};
+//! use testbed_controller::TestbedController;
+//!
+//! let mut controller = TestbedController::default();
+//! controller.tau_h = 4.0;
+//! controller.initialize(0.0, &mut Log::silent())?;
+//! controller.step(Step { start_time: 0.0, t: 0.0, h: 0.002 }, &mut Log::silent())?;
+//! assert_eq!(controller.tick, 0);
+//! assert!(controller.tau_a > 0.0); // towards where the nominal mass is being pushed
+//! # Ok::<(), export::Refusal>(())
+//! ```
+//!
+//! | variable | symbol | equation |
+//! |---|---|---|
+//! | `q`, `tau_h` | q, tau_h | what is sensed, along the axis, tau_h on the robot |
+//! | `q_n`, `dq_n` | q_n, dq_n | eq:obs_dyn: M_n ddq_n + D_n dq_n = tau_h − alpha y |
+//! | `e_nr` | e_nr | q_n − q |
+//! | `tau_a` | tau_a | eq:dob_input: K y, y = de_nr + K_P e_nr, within ±tau_max |
+//! | `energy.*` | H, G, E | what the sampled law stores and creates: [`admittance::ledger`] |
+//!
+//! | module | what |
+//! |---|---|
+//! | [`model`] | the variables and what a step does |
+//! | [`rows`] | one row per variable: name, unit, bounds, description |
+
+#![forbid(unsafe_code)]
+#![allow(
+    non_snake_case,
+    reason = "fields are spelt like the paper's symbols and the interface: M_n, K_P, T"
+)]
+
+pub mod model;
+pub mod rows;
+
+pub use model::TestbedController;

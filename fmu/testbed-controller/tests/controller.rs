@@ -1,0 +1,344 @@
+//! The testbed controller as a model: start, ticks, engaging, tunables, refusals.
+#![allow(non_snake_case, reason = "the paper's symbols")]
+
+use declaration::{Access, Declare};
+use export::{Log, Model, Step};
+use testbed_controller::TestbedController;
+use testbed_controller::rows::LAW;
+
+fn controller(change: impl FnOnce(&mut TestbedController)) -> TestbedController {
+    let mut controller = TestbedController::default();
+    change(&mut controller);
+    controller
+}
+
+fn initialized(change: impl FnOnce(&mut TestbedController)) -> TestbedController {
+    let mut controller = controller(change);
+    controller
+        .initialize(0.0, &mut Log::silent())
+        .expect("valid parameters");
+    controller
+}
+
+/// Step number `k` of length `h` (s) from 0 on.
+fn step(controller: &mut TestbedController, k: u32, h: f64) {
+    let step = Step {
+        start_time: 0.0,
+        t: f64::from(k) * h,
+        h,
+    };
+    controller.step(step, &mut Log::silent()).expect("a step");
+}
+
+/// One tick a step.
+fn tick(controller: &mut TestbedController, k: u32) {
+    step(controller, k, 0.002);
+    assert_eq!(controller.tick, k as i32);
+}
+
+#[test]
+fn after_initialization_there_is_no_force_and_the_nominal_stands_at_q() {
+    let mut controller = initialized(|c| (c.q, c.tau_h) = (0.7, 9.0));
+    let at_start = |c: &TestbedController, q: f64| {
+        assert_eq!(
+            (c.tau_a, c.tau_demand, c.q_n, c.dq_n, c.e_nr, c.dq),
+            (0.0, 0.0, q, 0.0, 0.0, 0.0)
+        );
+        assert_eq!(
+            (c.saturated, c.engaged, c.outside_bounds, c.tick),
+            (false, false, false, -1)
+        );
+        assert_eq!((c.energy.H, c.energy.G, c.energy.tank), (0.0, 0.0, 10.0));
+    };
+    at_start(&controller, 0.7);
+    // Again, after a change and after a run.
+    tick(&mut controller, 0);
+    controller.q = 0.8;
+    controller
+        .initialize(0.0, &mut Log::silent())
+        .expect("valid parameters");
+    at_start(&controller, 0.8);
+}
+
+#[test]
+fn the_first_tick_engages_at_q_whatever_q_was_when_initialized() {
+    let mut controller = initialized(|_| ());
+    controller.q = 0.25; // an importer that wires late
+    tick(&mut controller, 0);
+    assert_eq!(
+        (
+            controller.q_n,
+            controller.e_nr,
+            controller.dq,
+            controller.tau_a
+        ),
+        (0.25, 0.0, 0.0, 0.0)
+    );
+    assert!(controller.engaged);
+}
+
+#[test]
+fn until_engage_is_true_there_is_no_force_and_then_it_starts_at_the_sensed_position() {
+    let mut controller = initialized(|c| (c.engage, c.tau_h) = (false, 8.0));
+    for k in 0..5 {
+        controller.q = 0.1 * f64::from(k);
+        tick(&mut controller, k);
+        assert_eq!(
+            (controller.tau_a, controller.q_n, controller.engaged),
+            (0.0, controller.q, false)
+        );
+    }
+    controller.engage = true;
+    tick(&mut controller, 5);
+    assert_eq!(
+        (
+            controller.q_n,
+            controller.dq_n,
+            controller.dq,
+            controller.engaged
+        ),
+        (0.4, 0.0, 0.0, true)
+    );
+    assert!(controller.tau_a > 0.0 && controller.tau_a < 12.5);
+    // And out again: the stored energy is given up, none is created.
+    tick(&mut controller, 6);
+    assert!(controller.energy.H > 0.0);
+    let G = controller.energy.G;
+    controller.engage = false;
+    tick(&mut controller, 7);
+    assert_eq!(
+        (controller.tau_a, controller.e_nr, controller.energy.H),
+        (0.0, 0.0, 0.0)
+    );
+    assert!(controller.energy.G < G);
+}
+
+#[test]
+fn odd_step_sizes_run_the_same_ticks_as_one_step_a_tick() {
+    let run = |h: f64, steps: u32| {
+        let mut controller = initialized(|c| c.tau_h = 3.0);
+        (0..steps).for_each(|k| step(&mut controller, k, h));
+        controller
+    };
+    let reference = run(0.002, 30);
+    assert_eq!(reference.tick, 29);
+    for (h, steps) in [
+        (0.0002, 300),
+        (0.003, 20),
+        (0.06, 1),
+        (0.001, 60),
+        (0.004, 15),
+    ] {
+        assert_eq!(run(h, steps), reference, "h = {h} s");
+    }
+    // Between two ticks outputs hold: 0.0595 s to 0.06 s contains none.
+    let mut between = run(0.0005, 118);
+    assert_eq!(between.tick, 29);
+    between.tau_h = -100.0;
+    step(&mut between, 118, 0.0005);
+    assert_eq!((between.tau_a, between.tick), (reference.tau_a, 29));
+}
+
+#[test]
+fn the_force_obeys_tau_max_and_says_so() {
+    let mut controller = initialized(|c| c.tau_h = 6.0);
+    (0..5000).for_each(|k| tick(&mut controller, k));
+    assert_eq!((controller.tau_a, controller.saturated), (12.5, true));
+    assert!(controller.tau_demand > 12.5);
+    controller.tau_max = 7.0;
+    controller.tune(&mut Log::silent()).expect("a valid limit");
+    assert_eq!(controller.tau_a, 12.5, "a tunable acts at the next tick");
+    tick(&mut controller, 5000);
+    assert_eq!(controller.tau_a, 7.0);
+    assert!((300.0 * controller.e_nr).abs() <= 7.0 * (1.0 + 1e-15)); // the product's rounding
+}
+
+/// K, K_P and M_n raised a hundredfold while the spring is stretched: the stored energy must not rise with them.
+#[test]
+fn tuning_does_not_raise_the_stored_energy() {
+    let mut controller = initialized(|c| c.tau_h = 6.0);
+    (0..5000).for_each(|k| tick(&mut controller, k));
+    let before = controller.clone();
+    (controller.K, controller.K_P, controller.M_n) = (300.0, 100.0, 50.0);
+    controller.tune(&mut Log::silent()).expect("valid gains");
+    tick(&mut controller, 5000);
+    assert!(controller.energy.G <= before.energy.G);
+    assert!(controller.e_nr < before.e_nr);
+}
+
+#[test]
+fn refusals_name_the_variable_the_value_and_the_range() {
+    type Change = fn(&mut TestbedController);
+    let cases: [(Change, &str); 10] = [
+        (
+            |c| c.law = 5,
+            "law = 5 (natural) is not offered: expected 1 (standard), 2 (passive), 3 (passive_applied), 4 (passive_bounded)",
+        ),
+        (
+            |c| c.law = 6,
+            "law = 6 (sliding_mode) is not offered: expected 1 (standard), 2 (passive), 3 (passive_applied), 4 (passive_bounded)",
+        ),
+        (
+            |c| c.law = 9,
+            "law = 9: expected 1 (standard), 2 (passive), 3 (passive_applied), 4 (passive_bounded)",
+        ),
+        (
+            |c| c.T = 0.0,
+            "T = 0: expected a finite value greater than 0",
+        ),
+        (
+            |c| c.M_n = f64::NAN,
+            "M_n = NaN: expected a finite value greater than 0",
+        ),
+        (
+            |c| c.D_n = -0.1,
+            "D_n = -0.1: expected a finite value not less than 0",
+        ),
+        (
+            |c| c.K = f64::INFINITY,
+            "K = inf: expected a finite value greater than 0",
+        ),
+        (
+            |c| c.tau_max = 0.0,
+            "tau_max = 0: expected a value greater than 0",
+        ),
+        (
+            |c| c.energy.E_0 = -1.0,
+            "energy.E_0 = -1: expected a finite value not less than 0",
+        ),
+        (|c| c.delay = 2, "delay = 2: expected 0 or 1"),
+    ];
+    for (change, expected) in cases {
+        let refusal = controller(change)
+            .initialize(0.0, &mut Log::silent())
+            .expect_err(expected);
+        assert_eq!(refusal.0, expected);
+    }
+}
+
+#[test]
+fn a_refused_gain_leaves_the_law_as_it_was() {
+    let (mut tuned, mut untouched) = (
+        initialized(|c| c.tau_h = 6.0),
+        initialized(|c| c.tau_h = 6.0),
+    );
+    tuned.K = -1.0;
+    assert_eq!(
+        tuned.tune(&mut Log::silent()).expect_err("negative").0,
+        "K = -1: expected a finite value greater than 0"
+    );
+    tuned.K = untouched.K; // as the C interface restores it
+    for k in 0..10 {
+        tick(&mut tuned, k);
+        tick(&mut untouched, k);
+    }
+    assert_eq!(tuned, untouched);
+}
+
+#[test]
+fn a_force_beyond_arithmetic_fails_the_step_instead_of_reaching_the_robot() {
+    let mut controller = initialized(|c| (c.law, c.K, c.tau_h) = (1, 1e300, 1e300));
+    let failure = controller
+        .step(
+            Step {
+                start_time: 0.0,
+                t: 0.0,
+                h: 0.02,
+            },
+            &mut Log::silent(),
+        )
+        .expect_err("an overflow");
+    assert!(
+        failure.0.contains("is not finite") && failure.0.contains("tau_h = 1000"),
+        "{failure}"
+    );
+    assert_eq!(controller.tau_a, 0.0);
+}
+
+#[test]
+fn with_alpha_zero_the_energy_is_not_defined_and_shown_as_zero() {
+    let mut controller = initialized(|c| (c.alpha, c.tau_h) = (0.0, 6.0));
+    assert_eq!(controller.energy.tank, 0.0);
+    (0..100).for_each(|k| tick(&mut controller, k));
+    assert_eq!(
+        (
+            controller.energy.H,
+            controller.energy.G,
+            controller.energy.tank
+        ),
+        (0.0, 0.0, 0.0)
+    );
+    assert!(controller.tau_a > 0.0);
+}
+
+#[test]
+fn the_ledger_knows_of_a_delayed_force_and_the_force_is_the_same() {
+    let run = |delay| {
+        let mut controller = initialized(|c| (c.delay, c.tau_h) = (delay, 6.0));
+        let mut forces = Vec::new();
+        for k in 0..500 {
+            controller.q = 1e-4 * f64::from(k);
+            tick(&mut controller, k);
+            forces.push(controller.tau_a);
+        }
+        (forces, controller.energy.G)
+    };
+    let ((forces, direct), (delayed_forces, delayed)) = (run(0), run(1));
+    assert_eq!(forces, delayed_forces);
+    // Over equal ways of 1e-4 m, Σ (tau_k − tau_{k−1})·Δq is the last force that has worked so far, that of tick 498.
+    let expected = 1e-4 * forces[498];
+    assert!(expected > 1e-5);
+    assert!(
+        (direct - delayed - expected).abs() < 1e-12,
+        "{}",
+        direct - delayed
+    ); // 500 roundings of some 1e-2 J
+}
+
+#[test]
+fn start_values_lie_within_their_bounds_and_names_are_unique() {
+    let mut start = TestbedController::default();
+    let mut names = std::collections::HashSet::new();
+    for scalar in TestbedController::DESCRIPTION.scalars() {
+        assert!(
+            names.insert(scalar.name().to_lowercase()),
+            "{} twice",
+            scalar.name()
+        );
+        assert!(
+            !scalar.variable.about.is_empty(),
+            "{} without description",
+            scalar.name()
+        );
+        match scalar.variable.access {
+            Access::Real { min, max, at, .. } => {
+                let value = at(&mut start)[scalar.element];
+                assert!(min <= value && value <= max, "{} = {value}", scalar.name());
+            }
+            Access::Integer { min, max, at } => {
+                let value = at(&mut start)[scalar.element];
+                assert!(min <= value && value <= max, "{} = {value}", scalar.name());
+            }
+            Access::Enumeration { of, at } => {
+                let value = at(&mut start)[scalar.element];
+                assert!(
+                    of.items.iter().any(|item| item.value == value),
+                    "{} = {value}",
+                    scalar.name()
+                );
+            }
+            Access::Boolean { .. } | Access::String { .. } => {}
+        }
+    }
+}
+
+#[test]
+fn the_enumeration_has_the_laws_numbers_and_names() {
+    let declared: Vec<_> = LAW
+        .items
+        .iter()
+        .map(|item| (item.value, item.name))
+        .collect();
+    let laws = admittance::Law::ALL.map(|law| (law.number(), law.name()));
+    assert_eq!(declared, laws);
+}

@@ -1,0 +1,188 @@
+//! The 1-DoF testbed: a mass with friction in front of a wall (`fig:1dof_testbed`).
+
+use crate::energy::{Energy, Ledger};
+use crate::friction::Friction;
+use crate::substep::substep;
+use crate::wall::Wall;
+use crate::{ParameterError, Range, Sum};
+
+/// Forces on the mass, positive along +q (N), held over a run of substeps.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Forces {
+    /// Actuator τ_a.
+    pub tau_a: f64,
+    /// Human τ_h, at the handle with the load cell.
+    pub tau_h: f64,
+    /// Disturbance τ_d that no sensor sees.
+    pub tau_d: f64,
+}
+
+/// What the testbed is made of. The default is the paper's: 6 kg, 0.64 N, 0.19 N·s/m, a wall at 0.3 m.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Parameters {
+    /// Moving mass M (kg): mass of the testbed and payload, 1 kg + 5 kg.
+    pub M: f64,
+    /// Friction of the guide.
+    pub friction: Friction,
+    /// The wall.
+    pub wall: Wall,
+}
+
+impl Default for Parameters {
+    fn default() -> Self {
+        Self {
+            M: 6.0,
+            friction: Friction { F_c: 0.64, b: 0.19 },
+            wall: Wall {
+                q: 0.3,
+                k: 1e5,
+                c: 300.0,
+            },
+        }
+    }
+}
+
+impl Parameters {
+    /// Range of M (kg).
+    pub const M: Range = Range {
+        variable: "M",
+        unit: "kg",
+        low: 1e-3,
+        high: 1e6,
+    };
+
+    fn check(&self) -> Result<(), ParameterError> {
+        Self::M.check(self.M)?;
+        Friction::F_C.check(self.friction.F_c)?;
+        Friction::B.check(self.friction.b)?;
+        Wall::Q.check(self.wall.q)?;
+        Wall::K.check(self.wall.k)?;
+        Wall::C.check(self.wall.c)
+    }
+}
+
+/// Where the testbed is. Always s ≥ 0 and s ≥ q − q_wall.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct State {
+    /// Position q of the mass (m).
+    pub q: Sum,
+    /// Velocity dq of the mass (m/s).
+    pub dq: Sum,
+    /// Deflection s of the wall's surface (m).
+    pub s: f64,
+}
+
+/// The plant: M ddq = τ_a + τ_h + τ_d + τ_f + τ_e, with its energy balance.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Testbed {
+    parameters: Parameters,
+    state: State,
+    tau_f: f64,
+    tau_e: f64,
+    ledger: Ledger,
+}
+
+impl Default for Testbed {
+    /// The paper's testbed at rest at q = 0.
+    fn default() -> Self {
+        Self::start(Parameters::default(), 0.0, 0.0)
+    }
+}
+
+impl Testbed {
+    /// Range of the start position (m); besides, it must not lie beyond the wall.
+    pub const Q_START: Range = Range {
+        variable: "q_start",
+        unit: "m",
+        low: -1e6,
+        high: 1e6,
+    };
+    /// Range of the start velocity (m/s).
+    pub const DQ_START: Range = Range {
+        variable: "dq_start",
+        unit: "m/s",
+        low: -1e3,
+        high: 1e3,
+    };
+
+    /// The mass at `q_start` (m), moving at `dq_start` (m/s), the wall undeflected.
+    ///
+    /// # Errors
+    /// A parameter outside its range; a start beyond the wall (touching it is allowed).
+    pub fn new(
+        parameters: Parameters,
+        q_start: f64,
+        dq_start: f64,
+    ) -> Result<Self, ParameterError> {
+        parameters.check()?;
+        Self::Q_START.check(q_start)?;
+        Self::DQ_START.check(dq_start)?;
+        if q_start > parameters.wall.q {
+            return Err(ParameterError::StartBeyondWall {
+                q_start,
+                wall_q: parameters.wall.q,
+            });
+        }
+        Ok(Self::start(parameters, q_start, dq_start))
+    }
+
+    fn start(parameters: Parameters, q: f64, dq: f64) -> Self {
+        Self {
+            parameters,
+            state: State {
+                q: q.into(),
+                dq: dq.into(),
+                s: 0.0,
+            },
+            tau_f: parameters.friction.at(dq),
+            tau_e: 0.0,
+            ledger: Ledger::open(0.5 * parameters.M * dq * dq),
+        }
+    }
+
+    /// Runs `n` substeps of `dt` (s) with `forces` held.
+    pub fn advance(&mut self, forces: &Forces, n: u32, dt: f64) {
+        for _ in 0..n {
+            let done = substep(&self.parameters, &self.state, forces, dt);
+            self.state = done.state;
+            self.ledger.book(&done.flow);
+            (self.tau_f, self.tau_e) = (done.tau_f, done.tau_e);
+        }
+    }
+
+    /// Position q of the mass (m).
+    pub fn q(&self) -> f64 {
+        self.state.q.value()
+    }
+
+    /// Velocity dq of the mass (m/s).
+    pub fn dq(&self) -> f64 {
+        self.state.dq.value()
+    }
+
+    /// Force τ_f of friction on the mass (N), mean of the last substep. At the start that of `dq_start`: 0 at rest.
+    pub fn tau_f(&self) -> f64 {
+        self.tau_f
+    }
+
+    /// Force τ_e of the wall on the mass (N), mean of the last substep: never positive. At the start 0.
+    pub fn tau_e(&self) -> f64 {
+        self.tau_e
+    }
+
+    /// State, with the deflection of the wall's surface.
+    pub fn state(&self) -> State {
+        self.state
+    }
+
+    /// Energy balance since the start.
+    pub fn energy(&self) -> Energy {
+        let Parameters { M, wall, .. } = self.parameters;
+        let dq = self.dq();
+        self.ledger
+            .balance(0.5 * M * dq * dq, wall.energy(self.state.s))
+    }
+}

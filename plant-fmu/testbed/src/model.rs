@@ -1,0 +1,59 @@
+//! Initialize and step.
+
+use crate::Testbed;
+use crate::variables::SUBSTEP;
+use export::{Log, Model, Refusal, Step};
+use mechanics::testbed::{self as plant, Forces, Parameters};
+
+impl Model for Testbed {
+    fn initialize(&mut self, _start_time: f64, _log: &mut Log<'_>) -> Result<(), Refusal> {
+        SUBSTEP.check(self.substep).map_err(Refusal::new)?;
+        let parameters = Parameters {
+            M: self.M,
+            friction: self.friction,
+            wall: self.wall,
+        };
+        self.plant =
+            plant::Testbed::new(parameters, self.q_start, self.dq_start).map_err(Refusal::new)?;
+        self.show();
+        Ok(())
+    }
+
+    fn step(&mut self, step: Step, _log: &mut Log<'_>) -> Result<(), Refusal> {
+        let (n, dt) = step.substeps(self.substep);
+        if n == u32::MAX {
+            return Err(Refusal(format!(
+                "step size {:?} s: expected less than {n} substeps of {:?} s",
+                step.h, self.substep
+            )));
+        }
+        let (tau_a, tau_h, tau_d) = (self.tau_a, self.tau_h, self.tau_d);
+        let forces = Forces {
+            tau_a,
+            tau_h,
+            tau_d,
+        };
+        self.plant.advance(&forces, n, dt);
+        self.show();
+        if !(self.q.is_finite() && self.dq.is_finite() && self.energy.residual.is_finite()) {
+            return Err(Refusal(format!(
+                "motion left the range of numbers: q = {:?} m, dq = {:?} m/s, \
+                 after tau_a = {tau_a:?} N, tau_h = {tau_h:?} N, tau_d = {tau_d:?} N",
+                self.q, self.dq
+            )));
+        }
+        Ok(())
+    }
+}
+
+impl Testbed {
+    /// Outputs from the plant's state. The load cell sees the human's force alone, as it was held.
+    fn show(&mut self) {
+        self.q = self.plant.q();
+        self.dq = self.plant.dq();
+        self.tau_h_measured = self.tau_h;
+        self.tau_e = self.plant.tau_e();
+        self.tau_f = self.plant.tau_f();
+        self.energy = self.plant.energy();
+    }
+}

@@ -1,0 +1,152 @@
+//! Right after initialization: the start state, and refusals that name variable, value and range.
+
+use declaration::{Access, Causality, Declare, Variable};
+use export::{Log, Model};
+use mechanics::Energy;
+use testbed::Testbed;
+
+fn initialized(mut plant: Testbed) -> Result<Testbed, String> {
+    plant
+        .initialize(0.0, &mut Log::silent())
+        .map_err(|refusal| refusal.0)?;
+    Ok(plant)
+}
+
+#[test]
+fn outputs_show_the_start_state() {
+    let mut plant = initialized(Testbed {
+        q_start: 0.1,
+        dq_start: -2.0,
+        tau_h: 3.0,
+        ..Testbed::default()
+    })
+    .unwrap();
+    assert_eq!(
+        (plant.q, plant.dq, plant.tau_h_measured, plant.tau_e),
+        (0.1, -2.0, 3.0, 0.0)
+    );
+    assert_eq!(plant.tau_f, 0.64 + 0.19 * 2.0);
+    assert_eq!(
+        plant.energy,
+        Energy {
+            kinetic: 12.0,
+            ..Energy::default()
+        }
+    );
+
+    // A second initialization, after a change, starts from parameters and inputs alone.
+    plant.q_start = 0.2;
+    plant.dq_start = 0.0;
+    let again = initialized(plant).unwrap();
+    assert_eq!(
+        (again.q, again.dq, again.tau_f, again.energy),
+        (0.2, 0.0, 0.0, Energy::default())
+    );
+}
+
+#[test]
+fn start_values_are_accepted_and_are_the_papers() {
+    let plant = initialized(Testbed::default()).unwrap();
+    assert_eq!(plant, Testbed::default());
+    assert_eq!(
+        (plant.M, plant.friction.F_c, plant.friction.b),
+        (6.0, 0.64, 0.19)
+    );
+    assert_eq!(
+        (plant.wall.q, plant.wall.k, plant.wall.c),
+        (0.3, 1e5, 300.0)
+    );
+    assert_eq!(
+        (plant.q_start, plant.dq_start, plant.substep),
+        (0.0, 0.0, 8e-5)
+    );
+}
+
+#[test]
+fn a_refused_parameter_is_named_with_its_value_and_range() {
+    let refused = |change: fn(&mut Testbed)| {
+        let mut plant = Testbed::default();
+        change(&mut plant);
+        initialized(plant).unwrap_err()
+    };
+    assert_eq!(
+        refused(|p| p.M = -6.0),
+        "M = -6.0 kg: expected 0.001 to 1000000.0 kg"
+    );
+    assert_eq!(
+        refused(|p| p.substep = 0.0),
+        "substep = 0.0 s: expected 1e-7 to 0.01 s"
+    );
+    assert_eq!(
+        refused(|p| p.q_start = 0.5),
+        "q_start = 0.5 m: expected at most wall.q = 0.3 m, the mass starts outside the wall"
+    );
+}
+
+fn real(row: &Variable<Testbed>, plant: &mut Testbed) -> f64 {
+    let Access::Real { at, .. } = row.access else {
+        panic!("{} is a Real", row.name)
+    };
+    at(plant)[0]
+}
+
+#[test]
+fn declared_initial_dependencies_are_the_true_ones() {
+    // A start at which everything that can matter does: moving, away from the wall.
+    let base = Testbed {
+        dq_start: 0.5,
+        ..Testbed::default()
+    };
+    let rows = Testbed::DESCRIPTION.variables;
+    for output in rows.iter().filter(|row| row.causality == Causality::Output) {
+        let mut true_ones: Vec<_> = rows
+            .iter()
+            .filter(|row| row.causality != Causality::Output)
+            .filter(|row| {
+                let mut changed = base.clone();
+                let Access::Real { at, .. } = row.access else {
+                    panic!("{} is a Real", row.name)
+                };
+                at(&mut changed)[0] =
+                    0.9 * at(&mut changed)[0] - if row.name == "q_start" { 0.1 } else { 0.0 };
+                if row.causality == Causality::Input {
+                    at(&mut changed)[0] = 1.0;
+                }
+                let (mut before, mut after) = (
+                    initialized(base.clone()).unwrap(),
+                    initialized(changed).unwrap(),
+                );
+                real(output, &mut before).to_bits() != real(output, &mut after).to_bits()
+            })
+            .map(|row| row.name)
+            .collect();
+        let mut declared = output.initially_from.to_vec();
+        true_ones.sort_unstable();
+        declared.sort_unstable();
+        assert_eq!(declared, true_ones, "{}", output.name);
+    }
+}
+
+#[test]
+fn the_names_that_others_rely_on_are_there() {
+    let names = |causality| -> Vec<_> {
+        let rows = Testbed::DESCRIPTION.variables.iter();
+        rows.filter(|row| row.causality == causality)
+            .map(|row| row.name)
+            .collect()
+    };
+    assert_eq!(names(Causality::Input), ["tau_a", "tau_h", "tau_d"]);
+    for name in [
+        "q",
+        "dq",
+        "tau_h_measured",
+        "tau_e",
+        "energy.kinetic",
+        "energy.residual",
+    ] {
+        assert!(names(Causality::Output).contains(&name), "{name}");
+    }
+    for name in ["M", "F_c", "b", "wall.q", "wall.k", "wall.c", "q_start"] {
+        assert!(names(Causality::Parameter).contains(&name), "{name}");
+    }
+}
