@@ -90,6 +90,7 @@ impl Declare for Lag {
                 .input(Discrete)
                 .about("the next step panics"),
             enumeration!(method, &METHOD)
+                .typed()
                 .parameter(Fixed)
                 .about("integration method"),
             string!(label).parameter(Fixed).about("any text"),

@@ -4,7 +4,7 @@ use crate::ffi::ValueReference;
 use crate::guard::{Failure, Outcome};
 use crate::instance::{Instance, refused};
 use crate::legality::Phase;
-use crate::model::Model;
+use crate::model::{Model, Refusal};
 use declaration::{Access, Causality, Variable};
 
 /// A type of the interface: how to find it in a row and what a row demands of a value.
@@ -106,6 +106,34 @@ impl Value for String {
     fn objection<M>(&self, _: &Access<M>) -> Option<String> {
         None
     }
+}
+
+/// Checks every parameter against its row, as Set does: for models that are also used without the C interface, whose
+/// fields anyone can write.
+///
+/// # Errors
+/// A [`Refusal`] that names the first parameter outside of its row's bounds, its value and what was expected.
+pub fn check_parameters<M: Model>(model: &mut M) -> Result<(), Refusal> {
+    fn first<M, V: Value>(values: &[V], access: &Access<M>) -> Option<(usize, String)> {
+        let objections = values.iter().map(|value| value.objection(access));
+        objections.enumerate().find_map(|(i, o)| Some((i, o?)))
+    }
+    for row in M::DESCRIPTION.variables {
+        if row.causality != Causality::Parameter {
+            continue;
+        }
+        let objection = match row.access {
+            Access::Real { at, .. } => first(at(model), &row.access),
+            Access::Integer { at, .. } | Access::Enumeration { at, .. } => {
+                first(at(model), &row.access)
+            }
+            Access::Boolean { .. } | Access::String { .. } => None,
+        };
+        if let Some((i, objection)) = objection {
+            return Err(Refusal(format!("{} {objection}", row.element_name(i))));
+        }
+    }
+    Ok(())
 }
 
 /// Where one scalar of type `V` lives.

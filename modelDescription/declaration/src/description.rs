@@ -110,18 +110,19 @@ impl<M: Declare> Description<M> {
                 }
                 Access::Boolean { at } => format!("Boolean {}", at(&mut start)[i]),
                 Access::String { at } => format!("String {:?}", at(&mut start)[i]),
-                Access::Enumeration { of, at } => {
+                Access::Enumeration { of, declared, at } => {
                     let items: Vec<_> = of
                         .items
                         .iter()
                         .map(|item| (item.value, item.name))
                         .collect();
-                    format!("{} {items:?} {}", of.name, at(&mut start)[i])
+                    format!("{declared:?} {} {items:?} {}", of.name, at(&mut start)[i])
                 }
             };
+            let nan = if v.may_be_nan { " or NaN" } else { "" };
             let _ = writeln!(
                 text,
-                "{} {} {:?} {:?} {:?} {kind}",
+                "{} {} {:?} {:?} {:?} {kind}{nan}",
                 scalar.reference(),
                 scalar.name(),
                 v.causality,

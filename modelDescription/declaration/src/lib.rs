@@ -40,4 +40,4 @@ pub mod variable;
 
 pub use description::{Declare, Description, Experiment, Scalar, Stepping};
 pub use unit::Unit;
-pub use variable::{Access, Causality, Enumeration, Item, Variability, Variable};
+pub use variable::{Access, Causality, Declared, Enumeration, Item, Variability, Variable};

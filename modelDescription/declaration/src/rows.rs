@@ -29,9 +29,15 @@ macro_rules! real {
     ($($field:ident).+, $unit:expr) => { $crate::real!(@ $crate::row_name!($($field).+); $($field).+, $unit) };
 }
 
-/// An Integer: `integer!(tick)`, or with a name of its own `integer!("delay" => delay_ticks)`.
+/// An Integer: `integer!(tick)`, or with a name of its own `integer!("delay" => delay_ticks)`, also a vector
+/// `integer!("segment[i].axis" => segment.axis[16])`.
 #[macro_export]
 macro_rules! integer {
+    ($name:literal => $($field:ident).+ [$len:literal]) => {
+        $crate::Variable::new($name, $len, $crate::Access::Integer {
+            min: i32::MIN, max: i32::MAX, at: |m: &mut Self| &mut m.$($field).+[..],
+        })
+    };
     ($name:literal => $($field:ident).+) => {
         $crate::Variable::new($name, 1, $crate::Access::Integer {
             min: i32::MIN, max: i32::MAX, at: |m: &mut Self| ::core::slice::from_mut(&mut m.$($field).+),
@@ -64,12 +70,19 @@ macro_rules! string {
     };
 }
 
-/// An enumeration, held as its value: `enumeration!(law, &LAW)`.
+/// One of an enumeration's items, held as its value and declared as an Integer, which every importer can set (see
+/// [`typed`](crate::Variable::typed)): `enumeration!(law, &LAW)`, or a vector with a name of its own
+/// `enumeration!("segment[i].kind" => segment.kind[16], &KIND)`.
 #[macro_export]
 macro_rules! enumeration {
+    ($name:literal => $($field:ident).+ [$len:literal], $of:expr) => {
+        $crate::Variable::new($name, $len, $crate::Access::Enumeration {
+            of: $of, declared: $crate::Declared::Integer, at: |m: &mut Self| &mut m.$($field).+[..],
+        })
+    };
     ($($field:ident).+, $of:expr) => {
         $crate::Variable::new($crate::row_name!($($field).+), 1, $crate::Access::Enumeration {
-            of: $of, at: |m: &mut Self| ::core::slice::from_mut(&mut m.$($field).+),
+            of: $of, declared: $crate::Declared::Integer, at: |m: &mut Self| ::core::slice::from_mut(&mut m.$($field).+),
         })
     };
 }

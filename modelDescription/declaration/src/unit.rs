@@ -49,10 +49,28 @@ pub const METRE: Unit = unit("m", 0, 1, 0, 0);
 pub const METRE_PER_SECOND: Unit = unit("m/s", 0, 1, -1, 0);
 /// metre per second squared
 pub const METRE_PER_SECOND_SQUARED: Unit = unit("m/s2", 0, 1, -2, 0);
+/// radian, displayed in degrees
+pub const RADIAN: Unit = Unit {
+    display: Some(Display {
+        name: "deg",
+        factor: 180.0 / core::f64::consts::PI,
+    }),
+    ..unit("rad", 0, 0, 0, 1)
+};
+/// radian per second
+pub const RADIAN_PER_SECOND: Unit = unit("rad/s", 0, 0, -1, 1);
+/// metre per radian
+pub const METRE_PER_RADIAN: Unit = unit("m/rad", 0, 1, 0, -1);
 /// kilogram
 pub const KILOGRAM: Unit = unit("kg", 1, 0, 0, 0);
+/// kilogram square metre
+pub const KILOGRAM_SQUARE_METRE: Unit = unit("kg.m2", 1, 2, 0, 0);
 /// newton
 pub const NEWTON: Unit = unit("N", 1, 1, -2, 0);
+/// newton metre
+pub const NEWTON_METRE: Unit = unit("N.m", 1, 2, -2, 0);
+/// newton metre second per radian
+pub const NEWTON_METRE_SECOND_PER_RADIAN: Unit = unit("N.m.s/rad", 1, 2, -1, -1);
 /// newton per metre
 pub const NEWTON_PER_METRE: Unit = unit("N/m", 1, 0, -2, 0);
 /// newton second per metre

@@ -52,6 +52,17 @@ pub struct Enumeration {
     pub items: &'static [Item],
 }
 
+/// How the XML declares a variable that takes the items of an enumeration. The C interface is that of an Integer either
+/// way.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Declared {
+    /// As an Enumeration with a type: tools that know enumerations offer the items by name. Some co-simulation masters
+    /// know none and drop such a variable, so that it cannot be set there.
+    Enumeration,
+    /// As an Integer with bounds and the items in its description: can be set everywhere.
+    Integer,
+}
+
 /// Type of a variable and where it lives in the model `M`. A function returns the whole vector; a scalar is a vector of
 /// length one.
 pub enum Access<M> {
@@ -89,6 +100,8 @@ pub enum Access<M> {
     Enumeration {
         /// The type.
         of: &'static Enumeration,
+        /// How the XML declares it.
+        declared: Declared,
         /// Borrows the values.
         at: fn(&mut M) -> &mut [i32],
     },
@@ -115,6 +128,8 @@ pub struct Variable<M: 'static> {
     pub variability: Variability,
     /// Inputs and parameters on which an output's value right after initialization depends, by row name.
     pub initially_from: &'static [&'static str],
+    /// Whether NaN may leave the model here, as a sensor's failure. Elsewhere NaN and infinity fail the step.
+    pub may_be_nan: bool,
     /// What it is: sign, frame, equation label.
     pub about: &'static str,
 }
@@ -136,6 +151,7 @@ impl<M> Variable<M> {
             causality: Causality::Local,
             variability: Variability::Discrete,
             initially_from: &[],
+            may_be_nan: false,
             about: "",
         }
     }
@@ -183,6 +199,18 @@ impl<M> Variable<M> {
         self
     }
 
+    /// NaN may leave the model here: a sensor that can fail so. For outputs of type Real.
+    ///
+    /// # Panics
+    /// When the row is not a Real that the model computes (at compile time: rows are constants).
+    pub const fn may_be_nan(mut self) -> Self {
+        if !(self.is_calculated() && matches!(self.access, Access::Real { .. })) {
+            panic!("may_be_nan() is for Real rows that the model computes");
+        }
+        self.may_be_nan = true;
+        self
+    }
+
     /// Bounds of a Real, both included; a Set outside of them is refused.
     ///
     /// # Panics
@@ -224,6 +252,22 @@ impl<M> Variable<M> {
     /// Name of one element, counted from 0 here and from 1 in the name: `[i]` becomes `[1]`, `[2]`, …
     pub fn element_name(&self, element: usize) -> String {
         self.name.replace("[i]", &format!("[{}]", element + 1))
+    }
+
+    /// Declares an enumeration as such instead of as an Integer.
+    ///
+    /// # Panics
+    /// When the row is not an enumeration (at compile time: rows are constants).
+    pub const fn typed(mut self) -> Self {
+        self.access = match self.access {
+            Access::Enumeration { of, at, .. } => Access::Enumeration {
+                of,
+                declared: Declared::Enumeration,
+                at,
+            },
+            _ => panic!("typed() is for enumerations"),
+        };
+        self
     }
 
     /// Whether the importer may still set it during the run.

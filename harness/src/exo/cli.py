@@ -1,0 +1,179 @@
+"""The command `exo`. Exit codes: 0 good, 1 a failed verdict (or difference, or problem), 2 a wrong command."""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from rich.console import Console
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
+from rich.table import Table
+
+from exo import benchmark as bench
+from exo import compare as comparison
+from exo import experiment, report, results, scenario, validate
+from exo.errors import ExoError, ScenarioError
+from exo.experiment import Experiment
+from exo.fmu import find_fmu_dir
+
+app = typer.Typer(no_args_is_help=True, add_completion=False, pretty_exceptions_enable=False, help=__doc__)
+console = Console(highlight=False, soft_wrap=True)
+errors = Console(stderr=True, highlight=False, soft_wrap=True)
+
+Out = Annotated[Path, typer.Option("--out", help="Folder for the results.")]
+FmuDir = Annotated[
+    Path | None, typer.Option("--fmu-dir", help="Folder of the archives; else $EXO_FMU_DIR or target/fmu.")
+]
+COLORS = {"pass": "green", "fail": "bold red", "info": "blue"}
+
+
+@contextmanager
+def sentences() -> Iterator[None]:
+    """Turns errors that are meant for the user into one message and exit code 2."""
+    try:
+        yield
+    except ExoError as error:
+        errors.print(f"exo: {error}", markup=False)
+        raise typer.Exit(2) from error
+
+
+@app.command("list")
+def list_scenarios() -> None:
+    """Lists the scenarios."""
+    with sentences():
+        table = Table("scenario", "cases", "what", box=None)
+        for name in scenario.built_in():
+            data = scenario.load(name)
+            table.add_row(name, str(len(data.cases)), data.title)
+        console.print(table)
+
+
+@app.command()
+def run(
+    names: Annotated[list[str], typer.Argument(metavar="SCENARIO…", help="Scenario ids or .toml files.")],
+    settings: Annotated[
+        list[str] | None, typer.Option("--set", metavar="NAME=VALUE", help="Overrides a parameter in all cases.")
+    ] = None,
+    out: Out = Path("results"),
+    fmu_dir: FmuDir = None,
+) -> None:
+    """Runs scenarios; exit code 1 when a verdict fails."""
+    with sentences():
+        experiments = _run_all(names=names, overrides=parse_settings(settings or []), out=out, fmu_dir=fmu_dir)
+    _finish(experiments)
+
+
+@app.command()
+def reproduce(out: Out = Path("results"), fmu_dir: FmuDir = None) -> None:
+    """Runs all scenarios and writes report.html."""
+    with sentences():
+        names = list(scenario.built_in())
+        experiments = _run_all(names=names, overrides={}, out=out, fmu_dir=fmu_dir)
+        path = report.write(out=out, scenarios=names)
+    console.print(f"report: {path}", markup=False)
+    _finish(experiments)
+
+
+@app.command()
+def compare(
+    a: Path,
+    b: Path,
+    tolerance: Annotated[float, typer.Option(help="Largest difference, as a share of the larger magnitude.")] = 1e-12,
+) -> None:
+    """Compares two result folders or two signal files; exit code 1 beyond the tolerance."""
+    with sentences():
+        differences = comparison.compare(a, b)
+    beyond = [d for d in differences if not d.share <= tolerance]
+    table = Table("kind", "name", "a", "b", "difference", box=None)
+    for d in sorted(beyond, key=lambda d: -d.share):
+        table.add_row(d.kind, d.name, *("–" if x is None else f"{x:.9g}" for x in (d.a, d.b)), f"{d.share:.3g}")
+    if beyond:
+        console.print(table)
+    largest = max((d.share for d in differences), default=0.0)
+    console.print(
+        f"{len(differences)} numbers and signals compared, {len(beyond)} differ by more than {tolerance:g}; "
+        f"largest difference {largest:.3g}"
+    )
+    raise typer.Exit(1 if beyond else 0)
+
+
+@app.command("validate")
+def validate_fmus(fmus: Annotated[list[Path], typer.Argument(metavar="FMU…")]) -> None:
+    """Validates archives with fmpy; exit code 1 when it finds problems."""
+    with sentences():
+        found = {path: validate.problems(path) for path in fmus}
+    for path, problems in found.items():
+        for problem in problems:
+            console.print(f"{path}: {problem}", markup=False)
+        if not problems:
+            console.print(f"{path}: No problems found.", markup=False)
+    raise typer.Exit(1 if any(found.values()) else 0)
+
+
+@app.command()
+def benchmark(fmu_dir: FmuDir = None) -> None:
+    """Prints µs a macro step and the real-time factor; exit code 1 below 100 × real time."""
+    with sentences():
+        speed = bench.measure(fmu_dir=find_fmu_dir(fmu_dir))
+    console.print(speed.sentence())
+    raise typer.Exit(0 if speed.factor >= bench.WANTED_FACTOR else 1)
+
+
+def parse_settings(settings: list[str]) -> dict[str, str]:
+    """`name=value` texts as a dictionary."""
+    parsed = {}
+    for text in settings:
+        name, equals, value = text.partition("=")
+        if not equals or not name.strip() or not value.strip():
+            raise ScenarioError(f"--set {text}: expected <component>.<parameter>=<value>")
+        parsed[name.strip()] = value.strip()
+    return parsed
+
+
+def _run_all(*, names: list[str], overrides: dict[str, str], out: Path, fmu_dir: Path | None) -> list[Experiment]:
+    folder = find_fmu_dir(fmu_dir)
+    scenarios = [scenario.load(name) for name in names]
+    experiments = []
+    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
+    with Progress(*columns, console=console, transient=True, disable=not console.is_terminal) as progress:
+        for data in scenarios:
+            task = progress.add_task(data.id, total=len(data.cases) + 1)
+            done = experiment.run(
+                scenario=data,
+                fmu_dir=folder,
+                overrides=overrides,
+                on_case=lambda _case, task=task: progress.advance(task),  # type: ignore[misc]
+            )
+            results.write(experiment=done, out=out)
+            progress.remove_task(task)
+            experiments.append(done)
+            _print(done)
+    results.write_junit(experiments=experiments, out=out)
+    return experiments
+
+
+def _print(done: Experiment) -> None:
+    counts = {v: sum(r.verdict == v for r in done.results) for v in COLORS}
+    verdict = "pass" if done.passed else "fail"
+    simulated = sum(plan.duration for plan in done.plans.values())
+    computing = sum(run.wall_time for run in done.recordings.values())
+    console.print(
+        f"[{COLORS[verdict]}]{verdict}[/] {done.scenario.id}: {counts['pass']} pass, {counts['fail']} fail, "
+        f"{counts['info']} info; {simulated:.0f} s simulated in {computing:.2f} s"
+    )
+    for result in done.results:
+        if result.verdict == "fail":
+            console.print(
+                f"  fail {result.id}: {result.value:.6g} {result.unit}, "
+                f"expected {result.expectation()} ({result.source})",
+                markup=False,
+            )
+
+
+def _finish(experiments: list[Experiment]) -> None:
+    raise typer.Exit(0 if all(done.passed for done in experiments) else 1)
+
+
+if __name__ == "__main__":
+    app()

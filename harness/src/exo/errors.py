@@ -1,0 +1,27 @@
+"""What can go wrong, each as one sentence that names the thing, its value and what was expected."""
+
+from collections.abc import Iterable
+from difflib import get_close_matches
+
+
+class ExoError(Exception):
+    """An error whose text is meant for the user; the command line prints it and exits with code 2."""
+
+
+class ScenarioError(ExoError):
+    """A scenario file or an override that does not say what it must."""
+
+
+class FmuError(ExoError):
+    """A missing archive, an unknown variable, or a call that an FMU refused."""
+
+
+def close_matches(name: str, known: Iterable[str]) -> str:
+    """` (close matches: …)` for an unknown name, or all known names when nothing is near and they are few."""
+    known = sorted(known)
+    near = get_close_matches(name, known, n=3, cutoff=0.5)
+    if near:
+        return f" (close matches: {', '.join(near)})"
+    if 0 < len(known) <= 12:
+        return f" (known: {', '.join(known)})"
+    return ""

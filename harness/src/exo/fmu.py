@@ -1,0 +1,276 @@
+"""FMUs by variable name: an extracted archive, and instances of it with a fast path for the simulation loop.
+
+fmpy loads the library and reads the description. Inside the loop the C functions are called directly with addresses in
+NumPy buffers, because fmpy's convenience calls cost more than the models.
+"""
+
+import os
+import re
+import shutil
+from collections import deque
+from ctypes import byref, c_double, c_int, c_size_t, c_void_p
+from itertools import count
+from pathlib import Path
+from types import TracebackType
+from typing import Any, Literal, Self
+
+import fmpy
+import numpy as np
+from fmpy import calloc, free
+from fmpy.fmi2 import (
+    FMU2Slave,
+    fmi2CallbackAllocateMemoryTYPE,
+    fmi2CallbackFreeMemoryTYPE,
+    fmi2CallbackFunctions,
+    fmi2CallbackLoggerTYPE,
+)
+from fmpy.logging import addLoggerProxy
+from numpy.typing import NDArray
+
+from exo.errors import FmuError, close_matches
+
+Kind = Literal["Real", "Integer", "Boolean"]
+#: How the values of each kind lie in memory.
+DTYPES: dict[Kind, type[np.generic]] = {"Real": np.float64, "Integer": np.int32, "Boolean": np.int32}
+STATUS = ("OK", "Warning", "Discard", "Error", "Fatal", "Pending")
+
+
+def find_fmu_dir(given: Path | None = None) -> Path:
+    """The folder of archives: `given`, else the environment's EXO_FMU_DIR, else `target/fmu` here or further up."""
+    if given is not None:
+        return given
+    if named := os.environ.get("EXO_FMU_DIR"):
+        return Path(named)
+    here = Path.cwd()
+    for folder in (here, *here.parents):
+        if (folder / "target" / "fmu").is_dir():
+            return folder / "target" / "fmu"
+    raise FmuError(f"no target/fmu in {here} or above: run `cargo xtask fmu` first, or set EXO_FMU_DIR")
+
+
+class Archive:
+    """An extracted `.fmu`: description and library, shared by all its instances. Use with `with`."""
+
+    def __init__(self, path: Path) -> None:
+        if not path.is_file():
+            raise FmuError(f"{path}: no such FMU: run `cargo xtask fmu` first")
+        self.path = path
+        self.description: Any = fmpy.read_model_description(str(path))
+        if self.description.fmiVersion != "2.0" or self.description.coSimulation is None:
+            raise FmuError(f"{path}: expected an FMI 2.0 co-simulation FMU, got FMI {self.description.fmiVersion}")
+        self.variables: dict[str, Any] = {v.name: v for v in self.description.modelVariables}
+        self._folder = ""
+
+    def __enter__(self) -> Self:
+        self._folder = fmpy.extract(str(self.path))
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        shutil.rmtree(self._folder, ignore_errors=True)
+
+    @property
+    def folder(self) -> str:
+        """Where the archive lies extracted."""
+        return self._folder
+
+    def variable(self, name: str) -> Any:
+        """The variable of this name, or an error that names close matches."""
+        try:
+            return self.variables[name]
+        except KeyError:
+            known = close_matches(name, self.variables)
+            raise FmuError(f"{self.path.name}: no variable {name}{known}") from None
+
+    def names(self, *causalities: str) -> list[str]:
+        """Names of all variables with one of these causalities, in the order of the description."""
+        return [name for name, v in self.variables.items() if v.causality in causalities]
+
+    def parse(self, name: str, value: str) -> bool | int | float | str:
+        """Text from a command line as a value of the variable's type."""
+        variable = self.variable(name)
+        try:
+            match variable.type:
+                case "Real":
+                    return float(value)
+                case "Boolean":
+                    return {"true": True, "false": False}[value.lower()]
+                case "Integer" | "Enumeration" if value.lstrip("-").isdigit() or not choices(variable):
+                    return int(value)
+        except (ValueError, KeyError):
+            raise FmuError(f"{self.path.name}: {name}: expected {variable.type}, got {value!r}") from None
+        return value
+
+    def start_value(self, name: str, value: bool | int | float | str) -> tuple[Kind, float | int]:
+        """The C type and number for a start value, checked against type, causality and enumeration items."""
+        variable = self.variable(name)
+        where = f"{self.path.name}: {name}"
+        if variable.causality not in ("parameter", "input"):
+            raise FmuError(f"{where}: only parameters and inputs can be set, this is {variable.causality}")
+        match variable.type, value:
+            case "Boolean", bool():
+                return "Boolean", int(value)
+            case "Real", int() | float() if not isinstance(value, bool):
+                return "Real", float(value)
+            case "Integer" | "Enumeration", str() | int() if not isinstance(value, bool) and (items := choices(variable)):
+                if value in items:
+                    return "Integer", items[str(value)]
+                if value in items.values():
+                    return "Integer", int(value)
+                raise FmuError(f"{where}: no item {value}{close_matches(str(value), items)}")
+            case "Integer", int() if not isinstance(value, bool):
+                return "Integer", value
+        raise FmuError(f"{where}: expected {variable.type}, got {value!r}")
+
+
+def choices(variable: Any) -> dict[str, int]:
+    """Items by name: of an enumeration's type, or of an Integer whose description ends with them (": 1 one, 2 two")."""
+    if variable.type == "Enumeration":
+        return {str(item.name): int(item.value) for item in variable.declaredType.items}
+    listed = re.search(r": (\d+ \w+(?:, \d+ \w+)+)$", variable.description or "")
+    return {name: int(number) for number, name in (item.split() for item in listed[1].split(", "))} if listed else {}
+
+
+class References:
+    """Value references of variables of one kind, ready for C, and where their values lie."""
+
+    def __init__(self, archive: Archive, names: list[str], kind: Kind) -> None:
+        self.names = names
+        self.kind: Kind = kind
+        self.array: NDArray[np.uint32] = np.array([archive.variable(n).valueReference for n in names], dtype=np.uint32)
+        self.address: int = self.array.ctypes.data
+        self.count = len(names)
+
+    def __bool__(self) -> bool:
+        return bool(self.names)
+
+
+#: Where the messages of each living instance go. fmpy's proxy, which formats what the FMU logs (the logger is variadic
+#: in C), knows one Python logger per process; the instances are told apart by the environment that they were given.
+_MESSAGES: dict[int, deque[tuple[str, str]]] = {}
+_ENVIRONMENTS = count(1)
+
+
+def _log(environment: int, _instance: bytes, _status: int, category: bytes, message: bytes) -> None:
+    if environment in _MESSAGES:
+        _MESSAGES[environment].append(((category or b"").decode(), (message or b"").decode(errors="replace")))
+
+
+_LOGGER = fmi2CallbackLoggerTYPE(_log)
+
+
+def _callbacks(environment: int) -> Any:
+    callbacks = fmi2CallbackFunctions()
+    callbacks.logger = _LOGGER
+    callbacks.allocateMemory = fmi2CallbackAllocateMemoryTYPE(calloc)
+    callbacks.freeMemory = fmi2CallbackFreeMemoryTYPE(free)
+    callbacks.componentEnvironment = environment
+    addLoggerProxy(byref(callbacks))
+    return callbacks
+
+
+class Instance:
+    """One instance, freed at the end of `with`. Any status but OK raises `FmuError` with the FMU's last message."""
+
+    def __init__(self, archive: Archive, name: str) -> None:
+        self.archive = archive
+        self.name = name
+        #: The last messages as (category, text).
+        self.messages: deque[tuple[str, str]] = deque(maxlen=200)
+        self._environment = next(_ENVIRONMENTS)
+        self._callbacks = _callbacks(self._environment)
+        description = archive.description
+        self._slave: Any = FMU2Slave(
+            guid=description.guid,
+            unzipDirectory=archive.folder,
+            modelIdentifier=description.coSimulation.modelIdentifier,
+            instanceName=name,
+        )
+
+    def function(self, name: str) -> Any:
+        """A C function without argument types: give it ctypes objects. fmpy's own object keeps its types."""
+        return self._slave.dll[name]
+
+    def __enter__(self) -> Self:
+        _MESSAGES[self._environment] = self.messages
+        try:
+            self._slave.instantiate(callbacks=self._callbacks, loggingOn=True)
+        except Exception as error:
+            del _MESSAGES[self._environment]
+            raise FmuError(f"{self.name}: fmi2Instantiate failed: {self.last_message()}") from error
+        self.component: int = self._slave.component
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self._slave.freeInstance()
+        del _MESSAGES[self._environment]
+
+    def last_message(self) -> str:
+        """The FMU's last log message."""
+        return self.messages[-1][1] if self.messages else "(the FMU logged nothing)"
+
+    def fail(self, function: str, status: int) -> FmuError:
+        """The error for a call that returned another status than OK."""
+        return FmuError(f"{self.name}: {function} returned fmi2{STATUS[status]}: {self.last_message()}")
+
+    def _call(self, name: str, *arguments: Any) -> None:
+        status = int(self.function(name)(c_void_p(self.component), *arguments))
+        if status:
+            raise self.fail(name, status)
+
+    def setup_experiment(self, *, start_time: float, stop_time: float) -> None:
+        """fmi2SetupExperiment, without tolerance."""
+        self._call("fmi2SetupExperiment", c_int(0), c_double(0.0), c_double(start_time), c_int(1), c_double(stop_time))
+
+    def enter_initialization_mode(self) -> None:
+        """fmi2EnterInitializationMode."""
+        self._call("fmi2EnterInitializationMode")
+
+    def exit_initialization_mode(self) -> None:
+        """fmi2ExitInitializationMode."""
+        self._call("fmi2ExitInitializationMode")
+
+    def terminate(self) -> None:
+        """fmi2Terminate."""
+        self._call("fmi2Terminate")
+
+    def set_start(self, name: str, value: bool | int | float | str) -> None:
+        """Sets a parameter or an input by name; enumerations by item name or number."""
+        kind, number = self.archive.start_value(name, value)
+        self.write(References(self.archive, [name], kind), np.array([number], dtype=DTYPES[kind]))
+
+    def write(self, references: References, values: NDArray[Any]) -> None:
+        """Sets all variables of `references` from a contiguous array of the kind's type."""
+        self._transfer(f"fmi2Set{references.kind}", references, values)
+
+    def read(self, references: References, values: NDArray[Any]) -> None:
+        """Gets all variables of `references` into a contiguous array of the kind's type."""
+        self._transfer(f"fmi2Get{references.kind}", references, values)
+
+    def _transfer(self, function: str, references: References, values: NDArray[Any]) -> None:
+        address = c_void_p(values.ctypes.data)
+        self._call(function, c_void_p(references.address), c_size_t(references.count), address)
+
+    def references(self, names: list[str]) -> dict[Kind, References]:
+        """Variables grouped by kind, enumerations among the integers; strings are left out."""
+        groups: dict[Kind, list[str]] = {kind: [] for kind in DTYPES}
+        for name in names:
+            kind = self.archive.variable(name).type
+            kind = "Integer" if kind == "Enumeration" else kind
+            if kind in groups:
+                groups[kind].append(name)
+        return {kind: References(self.archive, group, kind) for kind, group in groups.items()}
+
+    def values(self, names: list[str]) -> dict[str, float | int | bool]:
+        """Current values by name."""
+        found: dict[str, float | int | bool] = {}
+        for kind, references in self.references(names).items():
+            if references:
+                array = np.zeros(references.count, dtype=DTYPES[kind])
+                self.read(references, array)
+                items = array.astype(bool).tolist() if kind == "Boolean" else array.tolist()
+                found.update(zip(references.names, items, strict=True))
+        return {name: found[name] for name in names if name in found}

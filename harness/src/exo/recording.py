@@ -1,0 +1,87 @@
+"""What a run leaves: columns over tick time, with units, and how they are stored."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pyarrow as pa
+import pyarrow.csv
+import pyarrow.parquet
+from numpy.typing import NDArray
+
+from exo.errors import ExoError, close_matches
+from exo.scenario import Segment
+
+TIME = "time"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Recording:
+    """Columns over the ticks t_k = k·T: sampled outputs are those of tick k, continuous outputs those at t_k, inputs
+    those that acted from t_k on."""
+
+    time: NDArray[np.float64]
+    columns: Mapping[str, NDArray[Any]]
+    units: Mapping[str, str]
+    #: All parameters as the FMUs held them after initialization, by `component.name`.
+    parameters: Mapping[str, float | int | bool]
+    #: The force profiles that were applied.
+    profiles: Mapping[str, tuple[Segment, ...]]
+    #: Time that the loop took (s).
+    wall_time: float
+    #: Processor time of it (s): less, when the machine does something else meanwhile.
+    cpu_time: float
+
+    def __getitem__(self, name: str) -> NDArray[Any]:
+        try:
+            return self.columns[name]
+        except KeyError:
+            raise ExoError(f"no recorded column {name}{close_matches(name, self.columns)}") from None
+
+    def parameter(self, name: str) -> float:
+        """A parameter of a component as a number."""
+        try:
+            return float(self.parameters[name])
+        except KeyError:
+            raise ExoError(f"no parameter {name}{close_matches(name, self.parameters)}") from None
+
+    @property
+    def step(self) -> float:
+        """Distance of two ticks (s)."""
+        return float(self.time[1] - self.time[0])
+
+    @property
+    def real_time_factor(self) -> float:
+        """Simulated time over computing time."""
+        return len(self.time) * self.step / self.wall_time
+
+    def table(self, names: tuple[str, ...] = ()) -> pa.Table:
+        """The named columns, or all, behind the time; the unit of each is in the field's metadata."""
+        columns = {TIME: self.time, **({name: self[name] for name in names} or self.columns)}
+        units = {TIME: "s", **self.units}
+        fields = [
+            pa.field(name, pa.from_numpy_dtype(column.dtype), metadata={"unit": units.get(name, "")})
+            for name, column in columns.items()
+        ]
+        return pa.table([pa.array(column) for column in columns.values()], schema=pa.schema(fields))
+
+
+def write(table: pa.Table, path: Path) -> None:
+    """`<path>.parquet` and `<path>.csv`; both keep every bit of a number."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    pyarrow.parquet.write_table(table, f"{path}.parquet", compression="zstd")
+    pyarrow.csv.write_csv(table, f"{path}.csv")
+
+
+def read(path: Path) -> dict[str, NDArray[Any]]:
+    """Columns of a Parquet or CSV file."""
+    match path.suffix:
+        case ".parquet":
+            table = pyarrow.parquet.read_table(path)
+        case ".csv":
+            table = pyarrow.csv.read_csv(path)
+        case _:
+            raise ExoError(f"{path}: expected a .parquet or .csv file")
+    return {name: table[name].to_numpy() for name in table.column_names}

@@ -1,0 +1,284 @@
+"""Scenarios as data: a TOML file becomes frozen objects, or an error that names file, key, value and expectation."""
+
+import json
+import math
+import tomllib
+from collections.abc import Iterable
+from importlib import resources
+from importlib.resources.abc import Traversable
+from pathlib import Path
+from typing import Annotated, Any, Literal, Self
+
+from pydantic import BaseModel, ConfigDict, Field, StringConstraints, ValidationError, model_validator
+
+from exo.errors import ScenarioError, close_matches
+
+Coupling = Literal["zero_delay", "one_sample_delay", "exchange_at_once"]
+Value = bool | int | float | str
+Identifier = Annotated[str, StringConstraints(pattern=r"^[A-Za-z0-9_.+-]+$")]
+#: `component.variable`, the name of an FMU's variable in a scenario.
+Qualified = Annotated[str, StringConstraints(pattern=r"^[A-Za-z_]\w*\.\S+$")]
+Positive = Annotated[float, Field(gt=0.0)]
+NotNegative = Annotated[float, Field(ge=0.0)]
+
+#: Component name that stands for the scenario's force profiles in `inputs`.
+PROFILE = "profile"
+
+
+class Data(BaseModel):
+    """Frozen, strict, and without unknown keys."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid", strict=True, allow_inf_nan=False)
+
+
+class Segment(Data):
+    """One term of a force profile: a shape in a window (N, s, Hz, rad). Phase and cycles count from `t_on`."""
+
+    kind: Literal["sine", "constant", "square", "table"]
+    amplitude: float = 1.0
+    frequency: NotNegative = 0.0
+    phase: float = 0.0
+    t_on: float = 0.0
+    t_off: float | None = None
+    ramp: NotNegative = 0.0
+    #: `table` only: (time since t_on, value) pairs, linear in between, held outside.
+    points: tuple[tuple[float, float], ...] = ()
+
+    @model_validator(mode="after")
+    def _fits_its_kind(self) -> Self:
+        if self.kind in ("sine", "square") and self.frequency == 0.0:
+            raise ValueError(f"a {self.kind} segment needs a frequency above 0 Hz")
+        if (self.kind == "table") != bool(self.points):
+            raise ValueError("points belong to a table segment, and a table segment needs points")
+        if any(b[0] <= a[0] for a, b in zip(self.points, self.points[1:], strict=False)):
+            raise ValueError("the times of a table must increase")
+        if self.t_off is not None and self.t_off <= self.t_on:
+            raise ValueError(f"t_off {self.t_off} s must lie after t_on {self.t_on} s")
+        return self
+
+
+class Component(Data):
+    """One FMU instance: its archive in the FMU folder and the start values that every case shares."""
+
+    archive: Annotated[str, StringConstraints(pattern=r"^\w+\.fmu$")]
+    parameters: dict[str, Value] = {}
+
+
+class Case(Data):
+    """One run. Whatever stands here replaces what the scenario says."""
+
+    id: Identifier
+    label: str = ""
+    parameters: dict[Qualified, Value] = {}
+    inputs: dict[Qualified, Qualified] = {}
+    profiles: dict[str, tuple[Segment, ...]] = {}
+    coupling: Coupling | None = None
+    duration: Positive | None = None
+
+
+class Check(Data):
+    """What a metric must be. `within` is absolute, `relative` a share of `value`; without any of them: information.
+
+    With `at_most` or `at_least`, `within` is the rounding that the bound may carry; its cause stands in `because`.
+    """
+
+    value: float | None = None
+    within: NotNegative | None = None
+    relative: NotNegative | None = None
+    at_most: float | None = None
+    at_least: float | None = None
+    because: str = ""
+
+    @model_validator(mode="after")
+    def _is_one_kind(self) -> Self:
+        kinds = [k for k in ("value", "at_most", "at_least") if getattr(self, k) is not None]
+        if len(kinds) > 1:
+            raise ValueError(f"one of value, at_most, at_least, not {' and '.join(kinds)}")
+        if self.value is not None and (self.within is None) == (self.relative is None):
+            raise ValueError("value needs exactly one of within and relative")
+        if self.value is None and self.relative is not None:
+            raise ValueError("relative belongs to value")
+        return self
+
+
+class Metric(Data):
+    """A number taken from a run by a function of `exo.metrics`; its id in the results is `<id>/<case>`."""
+
+    id: Identifier
+    title: str
+    unit: str
+    function: str
+    arguments: dict[str, Any] = {}
+    #: Case ids; all when absent.
+    cases: tuple[Identifier, ...] | None = None
+    #: For every case that has no entry in `expected`.
+    check: Check = Check()
+    expected: dict[Identifier, Check] = {}
+    source: str
+    #: Case id → key in paper.toml.
+    paper: dict[Identifier, str] = {}
+
+
+class Ratio(Data):
+    """A number over two metrics: the first divided by the second."""
+
+    id: Identifier
+    title: str
+    of: tuple[str, str]
+    check: Check
+    source: str
+
+
+class Curve(Data):
+    """One line of a panel."""
+
+    case: Identifier
+    column: Qualified
+    label: str
+    color: str = ""
+    dashed: bool = False
+
+
+class Panel(Data):
+    """One pair of axes. `y_range` and the marks are in the unit of the axis."""
+
+    title: str = ""
+    y_label: str
+    curves: tuple[Curve, ...]
+    y_range: tuple[float, float] | None = None
+    x_range: tuple[float, float] | None = None
+    #: Dotted horizontal lines, for instance the wall or a limit.
+    marks: tuple[float, ...] = ()
+
+
+class Figure(Data):
+    """A picture and, beside it, its data. Panels fill the grid row by row."""
+
+    id: Identifier
+    title: str
+    kind: Literal["panels", "frequency_response"] = "panels"
+    #: The paper's label, when it is one of its figures.
+    label: str = ""
+    columns: Annotated[int, Field(ge=1)] = 1
+    panels: tuple[Panel, ...] = ()
+    x_label: str = "time [s]"
+
+
+class Scenario(Data):
+    """An experiment: components, wiring, forces, cases, and what must come out."""
+
+    id: Identifier
+    title: str
+    about: str
+    source: str
+    duration: Positive
+    #: Macro step = the controller's sample period (s).
+    step: Positive
+    coupling: Coupling = "zero_delay"
+    #: In the order in which they step.
+    components: dict[Identifier, Component]
+    #: Input → source: an output of a component, or `profile.<name>`.
+    inputs: dict[Qualified, Qualified]
+    #: Inputs that come one macro step later under `one_sample_delay`.
+    delayed: tuple[Qualified, ...] = ()
+    profiles: dict[str, tuple[Segment, ...]] = {}
+    cases: tuple[Case, ...]
+    #: Columns that are stored with the results; all when empty. Metrics and figures see every column.
+    signals: tuple[Qualified, ...] = ()
+    metrics: tuple[Metric, ...] = ()
+    ratios: tuple[Ratio, ...] = ()
+    figures: tuple[Figure, ...] = ()
+
+    @model_validator(mode="after")
+    def _names_what_exists(self) -> Self:
+        cases = [case.id for case in self.cases]
+        _unique("case", cases)
+        _unique("metric", [m.id for m in self.metrics] + [r.id for r in self.ratios])
+        _unique("figure", [f.id for f in self.figures])
+        for case in self.cases:
+            owner = f"case {case.id}"
+            _known(owner, "component", (key.split(".", 1)[0] for key in case.parameters), self.components)
+            _known(owner, "profile", case.profiles, self.profiles)
+            self._check_wiring(owner, self.inputs | case.inputs)
+            length = case.duration or self.duration
+            if not math.isclose(length / self.step, round(length / self.step), rel_tol=1e-9):
+                raise ValueError(f"{owner}: duration {length} s is no multiple of the step {self.step} s")
+        for metric in self.metrics:
+            owner = f"metric {metric.id}"
+            _known(owner, "case", (*(metric.cases or ()), *metric.expected, *metric.paper), cases)
+        for figure in self.figures:
+            _known(f"figure {figure.id}", "case", (c.case for p in figure.panels for c in p.curves), cases)
+        _known("delayed", "input", self.delayed, self.inputs)
+        return self
+
+    def _check_wiring(self, owner: str, inputs: dict[str, str]) -> None:
+        _known(owner, "component", (key.split(".", 1)[0] for key in inputs), self.components)
+        for source in inputs.values():
+            component, name = source.split(".", 1)
+            if component == PROFILE:
+                _known(owner, "profile", [name], self.profiles)
+            else:
+                _known(owner, "component", [component], [PROFILE, *self.components])
+
+
+def _unique(kind: str, ids: list[str]) -> None:
+    for name in ids:
+        if ids.count(name) > 1:
+            raise ValueError(f"{kind} id {name} stands twice")
+
+
+def _known(owner: str, kind: str, names: Iterable[str], known: Iterable[str]) -> None:
+    known = list(known)
+    for name in names:
+        if name not in known:
+            raise ValueError(f"{owner}: unknown {kind} {name}{close_matches(name, known)}")
+
+
+def parse(*, text: str, origin: str) -> Scenario:
+    """A scenario from TOML text; `origin` is the file's name for messages."""
+    try:
+        data = tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        raise ScenarioError(f"{origin}: not TOML: {error}") from error
+    try:
+        # By way of JSON, where strict validation takes arrays for tuples.
+        return Scenario.model_validate_json(json.dumps(data, default=str))
+    except ValidationError as error:
+        raise ScenarioError("\n".join(_sentences(error, origin))) from error
+
+
+def _sentences(error: ValidationError, origin: str) -> list[str]:
+    lines = []
+    for problem in error.errors(include_url=False):
+        key = ".".join(str(part) for part in problem["loc"])
+        where = f"{origin}: {key}" if key else origin
+        match problem["type"]:
+            case "extra_forbidden":
+                lines.append(f"{where}: unknown key, with value {problem['input']!r}; expected one of the known keys")
+            case "missing":
+                lines.append(f"{where}: missing; expected a value")
+            case "value_error":
+                lines.append(f"{where}: {problem['ctx']['error']}")
+            case _:
+                lines.append(f"{where}: got {problem['input']!r}; expected: {problem['msg']}")
+    return lines
+
+
+def built_in() -> dict[str, Traversable]:
+    """The scenarios that come with the harness: id → file."""
+    folder = resources.files("exo") / "scenarios"
+    files = (file for file in folder.iterdir() if file.name.endswith(".toml"))
+    return {file.name.removesuffix(".toml"): file for file in sorted(files, key=lambda f: f.name)}
+
+
+def load(name: str) -> Scenario:
+    """A built-in scenario by id, or one from a path that ends in `.toml`."""
+    if name.endswith(".toml"):
+        path = Path(name)
+        if not path.is_file():
+            raise ScenarioError(f"{name}: no such scenario file")
+        return parse(text=path.read_text(encoding="utf-8"), origin=path.name)
+    known = built_in()
+    if name not in known:
+        raise ScenarioError(f"unknown scenario {name}{close_matches(name, known)}")
+    return parse(text=known[name].read_text(encoding="utf-8"), origin=known[name].name)

@@ -1,0 +1,104 @@
+"""Closed forms that measured numbers are compared with.
+
+Symbols are the paper's. The position q, the nominal q_n, e = q_n − q; f_h is the human force τ_h (N).
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg import expm
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Loop:
+    """The unlimited loop of law 2 (`passive`) and a free mass without friction.
+
+    M, M_n in kg; D_n, K, alpha in N·s/m; K_P in 1/s; T and substep in s.
+    """
+
+    M: float
+    M_n: float
+    D_n: float
+    K: float
+    K_P: float
+    alpha: float
+    T: float
+    substep: float
+
+
+def continuous(*, loop: Loop, omega: float) -> complex:
+    """dQ/T_H of the continuous loop at s = iω (m/(N·s))                                    eq:admittance_proposed
+
+    (N s + (K + α)s + K K_P + α K_P) / (M N s² + α M s² + K N s + α M K_P s + K K_P N),  N = M_n s + D_n
+
+    The print has (K + D_n)s in the numerator; it must be (K + 1)s, with α = 1. From
+    M s dQ = K c (dQ_n − dQ) + T_H and N dQ_n = T_H − α c (dQ_n − dQ), c = (s + K_P)/s.
+    """
+    s = 1j * omega
+    N = loop.M_n * s + loop.D_n
+    M, K, K_P, alpha = loop.M, loop.K, loop.K_P, loop.alpha
+    numerator = N * s + (K + alpha) * s + K * K_P + alpha * K_P
+    denominator = M * N * s**2 + alpha * M * s**2 + K * N * s + alpha * M * K_P * s + K * K_P * N
+    return complex(numerator / denominator)
+
+
+def sampled_tick(*, loop: Loop, state: Array, f_h: float) -> Array:
+    """The state (q, dq, q_{k−1}, q_n, v_n) one period later: implicit midpoint law, mass by backward Euler.
+
+    With n substeps of dt = T/n, each v⁺ = v + dt u/M and q⁺ = q + dt v⁺, the mass ends at
+    v + T u/M and q + T v + (n + 1)/(2n) T² u/M.
+    """
+    q, v, q_before, q_n, v_n = state
+    T, K_P, alpha = loop.T, loop.K_P, loop.alpha
+    dq, e = (q - q_before) / T, q_n - q
+    c = alpha * (1.0 + K_P * T / 2.0)
+    v_m = (2.0 * loop.M_n * v_n / T + f_h + alpha * (dq + K_P * T * dq / 2.0 - K_P * e)) / (
+        2.0 * loop.M_n / T + loop.D_n + c
+    )
+    y = (v_m - dq) + K_P * (e + T * (v_m - dq) / 2.0)
+    acceleration = (loop.K * y + f_h) / loop.M
+    n = np.ceil(T / loop.substep - 1e-6)
+    return np.array(
+        [
+            q + T * v + (n + 1.0) / (2.0 * n) * T**2 * acceleration,
+            v + T * acceleration,
+            q,
+            q_n + T * v_m,
+            2.0 * v_m - v_n,
+        ]
+    )
+
+
+def sampled(*, loop: Loop, omega: float) -> complex:
+    """dQ/T_H of the sampled loop at the ticks, z = exp(iωT): C(zI − A)⁻¹B with A, B read off `sampled_tick`."""
+    A = np.column_stack([sampled_tick(loop=loop, state=column, f_h=0.0) for column in np.eye(5)])
+    B = sampled_tick(loop=loop, state=np.zeros(5), f_h=1.0)
+    z = np.exp(1j * omega * loop.T)
+    return complex(np.linalg.solve(z * np.eye(5) - A, B)[1])
+
+
+RESPONSES: dict[str, Callable[..., complex]] = {"continuous": continuous, "sampled": sampled}
+
+
+def error_at_a_wall(
+    *, time: Array, f_h: Array, e: float, de: float, M_n: float, D_n: float, K_P: float, alpha: float
+) -> Array:
+    """e(t) of a nominal whose robot rests at a wall (q constant), from e, de at `time[0]`; f_h held between the ticks.
+
+    M_n ë + (D_n + α) ė + α K_P e = f_h: the nominal sees D_n + α and the spring α K_P, and ends at f_h/(α K_P).
+    """
+    T = float(time[1] - time[0])
+    dynamics = np.zeros((3, 3))
+    dynamics[0, 1] = 1.0
+    dynamics[1] = [-alpha * K_P / M_n, -(D_n + alpha) / M_n, 1.0 / M_n]
+    step = expm(dynamics * T)
+    curve = np.empty_like(time)
+    x, v = e, de
+    for k, force in enumerate(f_h):
+        curve[k] = x
+        x, v, _ = step @ (x, v, force)
+    return curve

@@ -1,0 +1,61 @@
+//! Writes what belongs in an FMU archive, from a model's [`declaration`] alone.
+//!
+//! ```
+//! use declaration::{real, unit, Declare, Description, Experiment, Stepping, Variability::*};
+//! use model_description::{Interface, archive};
+//!
+//! #[derive(Default)]
+//! struct Lag { u: f64, y: f64, tau: f64 }
+//!
+//! impl Declare for Lag {
+//!     const DESCRIPTION: Description<Self> = Description {
+//!         name: "Lag",
+//!         about: "First-order lag",
+//!         stepping: Stepping::Exact,
+//!         experiment: Experiment { start: 0.0, stop: 1.0, tolerance: 1e-6, step: 0.01 },
+//!         variables: &[
+//!             real!(u, unit::NONE).input(Continuous).about("input"),
+//!             real!(y, unit::NONE).output(Continuous).initially_from(&["u"]).about("output"),
+//!             real!(tau, unit::SECOND).parameter(Fixed).at_least(0.0).about("time constant"),
+//!         ],
+//!     };
+//! }
+//!
+//! let interface = Interface::of::<Lag>().unwrap();
+//! let xml = model_description::xml(&interface);
+//! assert!(xml.contains(r#"<ScalarVariable name="tau" valueReference="512""#));
+//! assert!(xml.contains(r#"<Unknown index="2" dependencies="1" dependenciesKind="dependent"/>"#));
+//!
+//! let fmu: Vec<u8> = archive::write(&interface, &[]).unwrap();
+//! assert_eq!(fmu, archive::write(&interface, &[]).unwrap(), "two archives, same bytes");
+//! ```
+//!
+//! | module | what | where in the archive | FMI 2.0.5 |
+//! |---|---|---|---|
+//! | [`interface`] | the declaration read once, every rule checked, the model's type gone | | 2.2 |
+//! | [`name`] | names of the structured naming convention | | 2.2.9 |
+//! | [`schema`], [`mod@xml`] | the XML's elements, and their contents | `modelDescription.xml` | 2.2, 4.3.1 |
+//! | [`mod@document`] | the interface document for humans | `documentation/index.html` | 2.3 |
+//! | [`mod@header`] | value references for C programs | `documentation/<name>.h` | |
+//! | [`archive`] | the archive, the same bytes every time | `<name>.fmu` | 2.3 |
+//!
+//! No model is known here. The table of this project's FMUs is in `xtask`.
+
+pub mod archive;
+pub mod document;
+pub mod header;
+pub mod interface;
+pub mod name;
+pub mod schema;
+pub mod xml;
+
+pub use document::write as document;
+pub use header::write as header;
+pub use interface::{Error, Interface};
+pub use xml::write as xml;
+
+/// Version of the FMUs and of this tool: the workspace has one.
+pub const VERSION: &str = env!("CARGO_PKG_VERSION");
+
+/// Licence of the FMUs, as an SPDX expression.
+pub const LICENSE: &str = env!("CARGO_PKG_LICENSE");

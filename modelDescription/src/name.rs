@@ -1,0 +1,62 @@
+//! Names of the structured naming convention (FMI 2.0.5, section 2.2.9).
+//!
+//! ```text
+//! name         = B-name [ arrayIndices ] { "." B-name [ arrayIndices ] }
+//! B-name       = nondigit { digit | nondigit }          nondigit = letter | "_"
+//! arrayIndices = "[" unsignedInteger { "," unsignedInteger } "]"
+//! ```
+//! `der(…)` and quoted names belong to the convention too; no row needs them, and they are refused.
+
+/// Whether `name` is legal, as `energy.H`, `tau_a[1]` and `segment[2].t_on` are.
+pub fn is_structured(name: &str) -> bool {
+    name.split('.').all(|part| {
+        let (base, indices) = match part.split_once('[') {
+            None => (part, None),
+            Some((base, rest)) => (base, Some(rest)),
+        };
+        is_identifier(base)
+            && indices.is_none_or(|rest| rest.strip_suffix(']').is_some_and(are_indices))
+    })
+}
+
+/// Whether `name` is a C identifier in ASCII, as a model identifier must be.
+pub fn is_identifier(name: &str) -> bool {
+    let nondigit = |c: char| c.is_ascii_alphabetic() || c == '_';
+    name.starts_with(nondigit) && name.chars().all(|c| nondigit(c) || c.is_ascii_digit())
+}
+
+fn are_indices(list: &str) -> bool {
+    list.split(',')
+        .all(|index| !index.is_empty() && index.chars().all(|c| c.is_ascii_digit()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_names_of_the_specification_are_structured() {
+        for name in [
+            "q",
+            "energy.H",
+            "tau_a[1]",
+            "segment[16].t_on",
+            "K_P",
+            "energy.E_0",
+            "inertia[1,3]",
+            "_x",
+        ] {
+            assert!(is_structured(name), "{name}");
+        }
+    }
+
+    #[test]
+    fn other_names_are_refused() {
+        for name in [
+            "", "1q", "energy.", ".H", "tau a", "tau[", "tau[]", "tau[i]", "tau[1", "tau[1]x", "τ",
+            "a..b", "a-b",
+        ] {
+            assert!(!is_structured(name), "{name}");
+        }
+    }
+}

@@ -1,0 +1,357 @@
+//! What the written `modelDescription.xml` says, read back by name. (Its validity against the XSD is a system test.)
+
+mod subject;
+
+use model_description::{Interface, xml};
+use std::collections::{BTreeMap, BTreeSet};
+use subject::{Element, Subject, elements};
+
+fn written() -> Vec<Element> {
+    elements(&xml(
+        &Interface::of::<Subject>().expect("a legal declaration")
+    ))
+}
+
+fn under(all: &[Element], path: &str) -> Vec<usize> {
+    (0..all.len())
+        .filter(|&i| all[i].path == format!("fmiModelDescription/{path}"))
+        .collect()
+}
+
+/// Variables in order, with the element that says their type.
+fn variables(all: &[Element]) -> Vec<(&Element, &Element)> {
+    under(all, "ModelVariables/ScalarVariable")
+        .into_iter()
+        .map(|i| (&all[i], &all[i + 1]))
+        .collect()
+}
+
+fn variable<'a>(all: &'a [Element], name: &str) -> (&'a Element, &'a Element) {
+    variables(all)
+        .into_iter()
+        .find(|(v, _)| v.get("name") == Some(name))
+        .unwrap_or_else(|| panic!("no {name}"))
+}
+
+fn indices(text: &str) -> Vec<usize> {
+    text.split_whitespace()
+        .map(|word| word.parse().expect("an index"))
+        .collect()
+}
+
+#[test]
+fn the_sections_stand_in_the_order_of_the_xsd() {
+    let all = written();
+    let sections: Vec<_> = all
+        .iter()
+        .filter(|e| e.path.matches('/').count() == 1)
+        .map(|e| &e.path[20..])
+        .collect();
+    assert_eq!(
+        sections,
+        [
+            "CoSimulation",
+            "UnitDefinitions",
+            "TypeDefinitions",
+            "LogCategories",
+            "DefaultExperiment",
+            "ModelVariables",
+            "ModelStructure"
+        ]
+    );
+}
+
+#[test]
+fn value_references_are_256_times_the_row_plus_the_element() {
+    let all = written();
+    let references: Vec<_> = variables(&all)
+        .iter()
+        .map(|(v, _)| {
+            (
+                v.get("name").unwrap().to_owned(),
+                v.get("valueReference").unwrap().parse::<u32>().unwrap(),
+            )
+        })
+        .collect();
+    for (name, reference) in [
+        ("u[1]", 0),
+        ("u[3]", 2),
+        ("on", 256),
+        ("angle[2]", 513),
+        ("inner", 12 * 256),
+    ] {
+        assert!(references.contains(&(name.to_owned(), reference)), "{name}");
+    }
+    assert_eq!(
+        references
+            .iter()
+            .map(|(_, r)| r)
+            .collect::<BTreeSet<_>>()
+            .len(),
+        references.len()
+    );
+}
+
+#[test]
+fn start_and_initial_follow_the_causality() {
+    let all = written();
+    for (v, kind) in variables(&all) {
+        let wanted = match v.get("causality").unwrap() {
+            "input" => (None, true),
+            "parameter" => (Some("exact"), true),
+            _ => (Some("calculated"), false),
+        };
+        assert_eq!(
+            (v.get("initial"), kind.get("start").is_some()),
+            wanted,
+            "{v:?}"
+        );
+        assert!(v.get("variability").is_some(), "{v:?}");
+    }
+    assert!(
+        all.iter()
+            .all(|e| e.get("causality") != Some("independent"))
+    );
+}
+
+#[test]
+fn outputs_lists_every_output_once_without_dependencies() {
+    let all = written();
+    let outputs: Vec<usize> = variables(&all)
+        .iter()
+        .enumerate()
+        .filter(|(_, (v, _))| v.get("causality") == Some("output"))
+        .map(|(position, _)| position + 1)
+        .collect();
+    let unknowns: Vec<_> = under(&all, "ModelStructure/Outputs/Unknown")
+        .into_iter()
+        .map(|i| &all[i])
+        .collect();
+    assert_eq!(
+        unknowns
+            .iter()
+            .map(|u| u.get("index").unwrap().parse().unwrap())
+            .collect::<Vec<usize>>(),
+        outputs
+    );
+    assert!(
+        unknowns
+            .iter()
+            .all(|u| u.get("dependencies") == Some("") && u.get("dependenciesKind").is_none())
+    );
+    assert_eq!(outputs.len(), 5);
+}
+
+#[test]
+fn initial_unknowns_are_sorted_and_depend_on_what_the_rows_name() {
+    let all = written();
+    let names: Vec<_> = variables(&all)
+        .iter()
+        .map(|(v, _)| v.get("name").unwrap().to_owned())
+        .collect();
+    let mut found = BTreeMap::new();
+    let mut last = 0;
+    for i in under(&all, "ModelStructure/InitialUnknowns/Unknown") {
+        let index: usize = all[i].get("index").unwrap().parse().unwrap();
+        assert!(index > last, "sorted, unique");
+        last = index;
+        let dependencies = indices(all[i].get("dependencies").unwrap());
+        assert!(dependencies.windows(2).all(|pair| pair[0] < pair[1]));
+        let kinds = all[i]
+            .get("dependenciesKind")
+            .unwrap_or("")
+            .split_whitespace()
+            .collect::<Vec<_>>();
+        assert_eq!(kinds, vec!["dependent"; dependencies.len()]);
+        found.insert(
+            &names[index - 1][..],
+            dependencies
+                .iter()
+                .map(|&d| &names[d - 1][..])
+                .collect::<Vec<_>>(),
+        );
+    }
+    let from_u = vec!["u[1]", "u[2]", "u[3]", "gain"];
+    let wanted = BTreeMap::from([
+        ("angle[1]", from_u.clone()),
+        ("angle[2]", from_u.clone()),
+        ("angle[3]", from_u),
+        ("energy.total", vec![]),
+        ("tick", vec![]),
+        ("scale", vec!["gain", "delay"]),
+    ]);
+    assert_eq!(
+        found, wanted,
+        "calculated outputs and calculated parameters, nothing else"
+    );
+}
+
+#[test]
+fn numbers_read_back_to_the_same_bits() {
+    let all = written();
+    for (name, value) in [
+        ("u[3]", 1.0 / 3.0),
+        ("tiny", 8e-5),
+        ("huge", 1e300),
+        ("gain", 30.0),
+    ] {
+        let text = variable(&all, name).1.get("start").unwrap();
+        assert_eq!(
+            text.parse::<f64>().unwrap().to_bits(),
+            f64::to_bits(value),
+            "{name} {text}"
+        );
+        assert!(text.len() < 25, "shortest form: {text}");
+    }
+}
+
+#[test]
+fn bounds_are_written_only_where_there_are_some() {
+    let all = written();
+    let bounds = |name: &str| {
+        let kind = variable(&all, name).1;
+        (
+            kind.get("min").map(str::to_owned),
+            kind.get("max").map(str::to_owned),
+        )
+    };
+    let some = |text: &str| Some(text.to_owned());
+    assert_eq!(bounds("u[1]"), (some("-10000.0"), some("10000.0")));
+    assert_eq!(bounds("gain"), (some("0.0"), None));
+    assert_eq!(bounds("tiny"), (None, None));
+    assert_eq!(bounds("delay"), (some("0"), some("1")));
+    assert_eq!(bounds("tick"), (None, None));
+    assert_eq!(bounds("mode"), (some("1"), some("4")));
+}
+
+#[test]
+fn each_real_has_a_unit_that_is_defined_once_with_its_exponents() {
+    let all = written();
+    let defined: Vec<_> = under(&all, "UnitDefinitions/Unit")
+        .into_iter()
+        .map(|i| all[i].get("name").unwrap())
+        .collect();
+    assert_eq!(defined, ["1", "J", "N", "N.s/m", "m", "rad", "s"]);
+    for (v, kind) in variables(&all) {
+        assert_eq!(
+            kind.path.ends_with("/Real"),
+            kind.get("unit").is_some_and(|unit| defined.contains(&unit)),
+            "{v:?}"
+        );
+    }
+    let joule = under(&all, "UnitDefinitions/Unit")
+        .into_iter()
+        .find(|&i| all[i].get("name") == Some("J"))
+        .unwrap();
+    let exponents: Vec<_> = all[joule + 1]
+        .attributes
+        .iter()
+        .map(|(k, v)| format!("{k}{v}"))
+        .collect();
+    assert_eq!(exponents, ["kg1", "m2", "s-2"]);
+    let display: Vec<_> = all
+        .iter()
+        .filter(|e| e.path.ends_with("/DisplayUnit"))
+        .collect();
+    assert_eq!(display.len(), 1);
+    assert_eq!(
+        (display[0].get("name"), display[0].get("factor")),
+        (Some("deg"), Some("57.29577951308232"))
+    );
+    assert_eq!(variable(&all, "angle[1]").1.get("displayUnit"), Some("deg"));
+}
+
+#[test]
+fn enumerations_declare_their_type() {
+    let all = written();
+    let items: Vec<_> = under(&all, "TypeDefinitions/SimpleType/Enumeration/Item")
+        .into_iter()
+        .map(|i| (all[i].get("name").unwrap(), all[i].get("value").unwrap()))
+        .collect();
+    assert_eq!(items, [("idle", "1"), ("busy", "4")]);
+    let kind = variable(&all, "mode").1;
+    assert!(kind.path.ends_with("/Enumeration"));
+    assert_eq!(
+        (kind.get("declaredType"), kind.get("start")),
+        (Some("Mode"), Some("4"))
+    );
+}
+
+#[test]
+fn a_choice_is_an_integer_that_names_its_items() {
+    let all = written();
+    let (scalar, kind) = variable(&all, "choice");
+    assert!(kind.path.ends_with("/Integer"));
+    assert_eq!(
+        (kind.get("min"), kind.get("max"), kind.get("start")),
+        (Some("1"), Some("4"), Some("1"))
+    );
+    assert_eq!(kind.get("declaredType"), None);
+    assert_eq!(scalar.get("description"), Some("choice: 1 idle, 4 busy"));
+}
+
+#[test]
+fn special_characters_survive() {
+    let all = written();
+    assert_eq!(
+        all[0].get("description"),
+        Some("A row of each kind, with ττ & <angles>")
+    );
+    assert_eq!(
+        variable(&all, "u[1]").0.get("description"),
+        Some("force & \"sign\"")
+    );
+    assert_eq!(
+        variable(&all, "label").1.get("start"),
+        Some("a <b> & \"c\"")
+    );
+}
+
+#[test]
+fn capabilities_are_those_that_the_exporter_has() {
+    let all = written();
+    let i = under(&all, "CoSimulation")[0];
+    let yes: Vec<_> = all[i]
+        .attributes
+        .iter()
+        .filter(|(_, v)| *v == "true")
+        .map(|(k, _)| &k[..])
+        .collect();
+    assert_eq!(
+        yes,
+        [
+            "canGetAndSetFMUstate",
+            "canHandleVariableCommunicationStepSize",
+            "canNotUseMemoryManagementFunctions",
+            "canSerializeFMUstate"
+        ]
+    );
+    assert_eq!(
+        all[i].get("canRunAsynchronuously"),
+        Some("false"),
+        "spelt as in the standard"
+    );
+    assert_eq!(all[i].get("modelIdentifier"), Some("Subject"));
+}
+
+#[test]
+fn root_and_default_experiment_are_complete_and_carry_no_date() {
+    let all = written();
+    let guid = Interface::of::<Subject>().unwrap().guid;
+    assert_eq!(all[0].get("guid"), Some(&guid[..]));
+    assert!(guid.starts_with('{') && guid.ends_with('}'));
+    assert_eq!(
+        (
+            all[0].get("fmiVersion"),
+            all[0].get("variableNamingConvention")
+        ),
+        (Some("2.0"), Some("structured"))
+    );
+    assert_eq!(all[0].get("license"), Some("MIT OR Apache-2.0"));
+    assert_eq!(all[0].get("generationDateAndTime"), None);
+    let experiment = &all[under(&all, "DefaultExperiment")[0]];
+    let times: Vec<_> = ["startTime", "stopTime", "tolerance", "stepSize"]
+        .map(|name| experiment.get(name).unwrap())
+        .into();
+    assert_eq!(times, ["0.0", "60.0", "1e-6", "0.002"]);
+}

@@ -1,0 +1,213 @@
+//! An FMU on disk: the archive, or the test model's bare library.
+
+use crate::description::{Description, Kind, Variable};
+use crate::instance::{Instance, Setup};
+use crate::library::Library;
+use std::fs::File;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use tempfile::TempDir;
+
+/// Rows of `fmu/export/examples/lag.rs`, in their order. A row's value reference is 256 times its position.
+const LAG: [(&str, Kind, &str, &str); 9] = [
+    ("u", Kind::Real {}, "input", "continuous"),
+    ("y", Kind::Real {}, "output", "continuous"),
+    ("tau", Kind::Real {}, "parameter", "fixed"),
+    ("gain", Kind::Real {}, "parameter", "tunable"),
+    ("steps", Kind::Integer {}, "output", "discrete"),
+    ("panic", Kind::Boolean {}, "input", "discrete"),
+    ("method", Kind::Enumeration {}, "parameter", "fixed"),
+    ("label", Kind::String {}, "parameter", "fixed"),
+    ("resource_path", Kind::String {}, "output", "discrete"),
+];
+
+/// A loaded FMU.
+pub struct Fmu {
+    /// Model name.
+    pub name: String,
+    /// Guid.
+    pub guid: String,
+    /// Variables.
+    pub variables: Vec<Variable>,
+    /// Declared log categories.
+    pub log_categories: Vec<String>,
+    /// The shared library.
+    pub library: Arc<Library>,
+    /// Path of the shared library.
+    pub path: PathBuf,
+    /// Where the archive was unpacked; removed with this value. The test model has none.
+    pub folder: Option<TempDir>,
+}
+
+/// The folder with the built FMUs: `EXO_FMU_DIR`, or `target/fmu` of the workspace.
+pub fn directory() -> PathBuf {
+    std::env::var_os("EXO_FMU_DIR").map_or_else(
+        || Path::new(env!("CARGO_MANIFEST_DIR")).join("../../target/fmu"),
+        PathBuf::from,
+    )
+}
+
+fn existing(path: PathBuf) -> PathBuf {
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    assert!(
+        path.is_file(),
+        "target/fmu/{}{name} is missing: run `cargo xtask fmu` first",
+        if name.ends_with(".fmu") { "" } else { "test/" }
+    );
+    path
+}
+
+impl Fmu {
+    /// Unpacks and loads `<name>.fmu` from the [`directory`].
+    ///
+    /// # Panics
+    /// When the archive is missing or no FMU; the message names the file.
+    pub fn open(name: &str) -> Self {
+        Self::open_in(&directory(), name)
+    }
+
+    /// Unpacks and loads `<name>.fmu` from a folder.
+    ///
+    /// # Panics
+    /// Like [`Fmu::open`].
+    pub fn open_in(directory: &Path, name: &str) -> Self {
+        let archive = existing(directory.join(format!("{name}.fmu")));
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let file = File::open(&archive).unwrap_or_else(|e| panic!("{}: {e}", archive.display()));
+        zip::ZipArchive::new(file)
+            .and_then(|mut zip| zip.extract(folder.path()))
+            .unwrap_or_else(|e| panic!("{}: {e}", archive.display()));
+        let text = std::fs::read_to_string(folder.path().join("modelDescription.xml"))
+            .unwrap_or_else(|e| panic!("{}: modelDescription.xml: {e}", archive.display()));
+        let description = Description::parse(&text)
+            .unwrap_or_else(|e| panic!("{}: modelDescription.xml: {e}", archive.display()));
+        let path = folder
+            .path()
+            .join("binaries")
+            .join(PLATFORM)
+            .join(format!("{}{SUFFIX}", description.model_identifier()));
+        Self {
+            name: description.name.clone(),
+            guid: description.guid.clone(),
+            variables: description.variables(),
+            log_categories: description.log_categories(),
+            library: Arc::new(Library::load(&path)),
+            path,
+            folder: Some(folder),
+        }
+    }
+
+    /// Loads the test model, a bare library without XML: its variables are those of its source, its guid is the one
+    /// that its refusal of a wrong guid names.
+    ///
+    /// # Panics
+    /// When the library is missing or does not name its guid.
+    pub fn lag() -> Self {
+        let path = existing(directory().join(format!("test/liblag{SUFFIX}")));
+        let library = Arc::new(Library::load(&path));
+        let refusal = Instance::new(&library, &Setup::new("lag", "wrong"))
+            .err()
+            .expect("a wrong guid is refused");
+        let guid = refusal
+            .first()
+            .and_then(|message| message.text.split_once("expected "))
+            .map(|(_, guid)| guid.to_owned())
+            .expect("the refusal names the expected guid");
+        let variables = LAG
+            .iter()
+            .zip(0..)
+            .map(|(&(name, kind, causality, variability), row)| Variable {
+                name: name.into(),
+                reference: 256 * row,
+                kind,
+                causality: causality.into(),
+                variability: variability.into(),
+            })
+            .collect();
+        Self {
+            name: "Lag".into(),
+            guid,
+            variables,
+            log_categories: ["logStatusError", "logStatusWarning", "logEvents"]
+                .map(Into::into)
+                .into(),
+            library,
+            path,
+            folder: None,
+        }
+    }
+
+    /// The test model and the project's FMUs.
+    pub fn all() -> [Self; 3] {
+        [
+            Self::lag(),
+            Self::open("TestbedController"),
+            Self::open("Testbed"),
+        ]
+    }
+
+    /// A variable by its name.
+    ///
+    /// # Panics
+    /// When there is none; the message names both.
+    pub fn variable(&self, name: &str) -> &Variable {
+        self.variables
+            .iter()
+            .find(|v| v.name == name)
+            .unwrap_or_else(|| panic!("{} has no variable {name}", self.name))
+    }
+
+    /// Value reference of a variable.
+    ///
+    /// # Panics
+    /// Like [`Fmu::variable`].
+    pub fn reference(&self, name: &str) -> u32 {
+        self.variable(name).reference
+    }
+
+    /// Value references of several variables.
+    ///
+    /// # Panics
+    /// Like [`Fmu::variable`].
+    pub fn references<const N: usize>(&self, names: [&str; N]) -> [u32; N] {
+        names.map(|name| self.reference(name))
+    }
+
+    /// What an ordinary importer passes to fmi2Instantiate: all logging on, no resources.
+    pub fn setup(&self) -> Setup {
+        Setup::new(&self.name, &self.guid)
+    }
+
+    /// An instance with all logging on.
+    ///
+    /// # Panics
+    /// When it is refused; the message has the log.
+    pub fn instantiate(&self) -> Instance {
+        self.instantiate_as(&self.setup())
+    }
+
+    /// An instance.
+    ///
+    /// # Panics
+    /// When it is refused; the message has the log.
+    pub fn instantiate_as(&self, setup: &Setup) -> Instance {
+        Instance::new(&self.library, setup)
+            .unwrap_or_else(|log| panic!("{} refuses to be instantiated: {log:?}", self.name))
+    }
+}
+
+/// Name of this platform in an FMU and suffix of its shared libraries.
+const PLATFORM: &str = if cfg!(windows) {
+    "win64"
+} else if cfg!(target_os = "macos") {
+    "darwin64"
+} else {
+    "linux64"
+};
+const SUFFIX: &str = if cfg!(windows) {
+    ".dll"
+} else if cfg!(target_os = "macos") {
+    ".dylib"
+} else {
+    ".so"
+};

@@ -1,0 +1,107 @@
+//! Times: experiments, communication points and step sizes that are accepted or refused.
+
+use abi::refusal::refused;
+use abi::{Fmu, Phase, Status};
+
+#[test]
+fn step_sizes_that_are_no_step_are_refused_at_once() {
+    for fmu in Fmu::all() {
+        let instance = Phase::StepComplete.enter(&fmu);
+        for (h, text) in [
+            (0.0, "= 0 s"),
+            (-0.0, "= -0 s"),
+            (-1.0, "= -1 s"),
+            (f64::NAN, "NaN"),
+            (f64::INFINITY, "= inf"),
+            (-f64::INFINITY, "= -inf"),
+        ] {
+            let parts = ["communicationStepSize", text, "finite value above 0"];
+            refused(&instance, "fmi2DoStep", &parts, |i| i.step(0.0, h));
+        }
+        assert_eq!(instance.step(0.0, 0.002), Status::OK);
+        // Below the resolution of the time: no progress.
+        refused(
+            &instance,
+            "fmi2DoStep",
+            &["does not advance the time 0.002 s"],
+            |i| i.step(0.002, 1e-20),
+        );
+        assert_eq!(instance.step(0.002, 0.002), Status::OK);
+    }
+}
+
+#[test]
+fn the_smallest_steps_are_steps() {
+    for fmu in Fmu::all() {
+        let instance = Phase::StepComplete.enter(&fmu);
+        // The plant divides impulses by h: below the smallest normal number 1/h is infinite.
+        let smallest = match fmu.name.as_str() {
+            "Testbed" => f64::MIN_POSITIVE,
+            _ => f64::from_bits(1),
+        };
+        let mut t = 0.0;
+        for h in [smallest, f64::MIN_POSITIVE, 1e-300, 1e-12] {
+            assert_eq!(instance.step(t, h), Status::OK, "{:?}", instance.messages());
+            t += h;
+        }
+    }
+}
+
+#[test]
+fn time_never_becomes_infinite() {
+    // The test model, because a sampled model would run 1e311 ticks.
+    let fmu = Fmu::lag();
+    let instance = Phase::StepComplete.enter(&fmu);
+    assert_eq!(instance.step(0.0, f64::MAX), Status::OK);
+    refused(&instance, "fmi2DoStep", &["communicationStepSize"], |i| {
+        i.step(f64::MAX, f64::MAX)
+    });
+}
+
+#[test]
+fn a_wrong_communication_point_is_refused_with_both_times() {
+    for fmu in Fmu::all() {
+        let instance = Phase::StepComplete.enter(&fmu);
+        assert_eq!(instance.step(0.0, 0.01), Status::OK);
+        for (t, text) in [
+            (0.0, "got 0 s"),
+            (0.02, "got 0.02 s"),
+            (-0.01, "got -0.01 s"),
+            (0.0101, "got 0.0101 s"),
+            (f64::NAN, "got NaN s"),
+            (f64::INFINITY, "got inf s"),
+        ] {
+            let parts = ["expected currentCommunicationPoint 0.01 s", text];
+            refused(&instance, "fmi2DoStep", &parts, |i| i.step(t, 0.01));
+        }
+        // What importers really pass: a rounding error beside it.
+        assert_eq!(instance.step(0.010_000_000_000_000_009, 0.01), Status::OK);
+    }
+}
+
+#[test]
+fn an_experiment_that_cannot_be_is_refused() {
+    for fmu in Fmu::all() {
+        let instance = Phase::Instantiated.enter(&fmu);
+        let (nan, inf) = (f64::NAN, f64::INFINITY);
+        for (tolerance, start, stop, part) in [
+            (None, nan, None, "startTime = NaN"),
+            (None, inf, None, "startTime = inf"),
+            (None, 1.0, Some(0.5), "stopTime = 0.5"),
+            (None, 0.0, Some(nan), "stopTime = NaN"),
+            (Some(nan), 0.0, None, "tolerance = NaN"),
+            (Some(-1e-6), 0.0, None, "tolerance = -0.000001"),
+        ] {
+            refused(&instance, "fmi2SetupExperiment", &[part], |i| {
+                let (t, s) = (tolerance.unwrap_or_default(), stop.unwrap_or_default());
+                let (td, sd) = (tolerance.is_some().into(), stop.is_some().into());
+                // SAFETY: numbers only.
+                unsafe { (i.library().fmi2SetupExperiment)(i.component(), td, t, start, sd, s) }
+            });
+        }
+        assert_eq!(instance.setup_experiment(-3.0, Some(-3.0)), Status::OK);
+        assert_eq!(instance.enter_initialization_mode(), Status::OK);
+        assert_eq!(instance.exit_initialization_mode(), Status::OK);
+        assert_eq!(instance.step(-3.0, 0.01), Status::OK);
+    }
+}

@@ -1,0 +1,364 @@
+//! The `fmi` crate couples the built FMUs; the models linked into this test do the same without FMI.
+
+use declaration::{Access, Causality, Declare};
+use export::{Log, Model, Step};
+use fmi::CS;
+use fmi::fmi2::import::Fmi2Import;
+use fmi::fmi2::instance::{CoSimulation as _, Common as _, Instance};
+use fmi::schema::fmi2::{Causality as Read, ScalarVariableElement};
+use fmi::traits::FmiImport as _;
+use testbed::Testbed;
+use testbed_controller::TestbedController;
+
+/// Sample period of the controller (s).
+const T: f64 = 0.002;
+
+/// One second of the loop, into the wall and out again.
+const STEPS: u32 = 500;
+
+fn import<M: Declare>() -> Fmi2Import {
+    let name = M::DESCRIPTION.name;
+    fmi::import::from_path(importers::archive(name))
+        .unwrap_or_else(|error| panic!("{name}: {error}"))
+}
+
+/// A model as the test drives it: by variable name, behind FMI or not.
+trait Driven {
+    fn set(&mut self, name: &str, value: f64);
+    fn initialize(&mut self);
+    fn step(&mut self, t: f64);
+    /// All Real outputs as bits, then the Integers and Booleans.
+    fn outputs(&mut self) -> Vec<u64>;
+    fn real(&mut self, name: &str) -> f64;
+}
+
+/// The built FMU.
+struct Imported {
+    instance: Instance<CS>,
+    /// Names, value references and types of the outputs, as the importer read them.
+    variables: Vec<(String, u32, Read, Type)>,
+}
+
+#[derive(Clone, Copy, PartialEq)]
+enum Type {
+    Real,
+    Integer,
+    Boolean,
+    Other,
+}
+
+fn variables(import: &Fmi2Import) -> Vec<(String, u32, Read, Type)> {
+    import
+        .model_description()
+        .get_model_variables()
+        .map(|variable| {
+            let kind = match variable.elem {
+                ScalarVariableElement::Real(_) => Type::Real,
+                ScalarVariableElement::Integer(_) => Type::Integer,
+                ScalarVariableElement::Boolean(_) => Type::Boolean,
+                _ => Type::Other,
+            };
+            (
+                variable.name.clone(),
+                variable.value_reference,
+                variable.causality.clone(),
+                kind,
+            )
+        })
+        .collect()
+}
+
+impl Imported {
+    fn new<M: Declare>() -> Self {
+        let import = import::<M>();
+        let instance = import
+            .instantiate_cs("one", false, false)
+            .expect("instantiated");
+        Self {
+            instance,
+            variables: variables(&import),
+        }
+    }
+
+    fn reference(&self, name: &str) -> u32 {
+        self.variables
+            .iter()
+            .find(|(known, ..)| known == name)
+            .unwrap_or_else(|| panic!("no variable {name}"))
+            .1
+    }
+
+    fn references(&self, kind: Type) -> Vec<u32> {
+        let outputs = self
+            .variables
+            .iter()
+            .filter(|(_, _, causality, of)| *causality == Read::Output && *of == kind);
+        outputs.map(|(_, reference, ..)| *reference).collect()
+    }
+}
+
+impl Driven for Imported {
+    fn set(&mut self, name: &str, value: f64) {
+        self.instance
+            .set_real(&[self.reference(name)], &[value])
+            .unwrap_or_else(|e| panic!("{name} = {value}: {e:?}"));
+    }
+
+    fn initialize(&mut self) {
+        self.instance
+            .setup_experiment(None, 0.0, None)
+            .expect("set up");
+        self.instance.enter_initialization_mode().expect("entered");
+        self.instance
+            .exit_initialization_mode()
+            .expect("initialized");
+    }
+
+    fn step(&mut self, t: f64) {
+        self.instance.do_step(t, T, true).expect("stepped");
+    }
+
+    fn outputs(&mut self) -> Vec<u64> {
+        let references = self.references(Type::Real);
+        let mut reals = vec![f64::NAN; references.len()];
+        self.instance
+            .get_real(&references, &mut reals)
+            .expect("read");
+        let mut all: Vec<u64> = reals.into_iter().map(f64::to_bits).collect();
+        let references = self.references(Type::Integer);
+        let mut integers = vec![i32::MIN; references.len()];
+        self.instance
+            .get_integer(&references, &mut integers)
+            .expect("read");
+        all.extend(integers.into_iter().map(|value| u64::from(value as u32)));
+        let references = self.references(Type::Boolean);
+        let mut booleans = vec![-1; references.len()];
+        self.instance
+            .get_boolean(&references, &mut booleans)
+            .expect("read");
+        all.extend(booleans.into_iter().map(|value| u64::from(value as u32)));
+        all
+    }
+
+    fn real(&mut self, name: &str) -> f64 {
+        let mut value = [f64::NAN];
+        self.instance
+            .get_real(&[self.reference(name)], &mut value)
+            .expect("read");
+        value[0]
+    }
+}
+
+/// The model itself.
+struct Linked<M>(M);
+
+impl<M: Model> Linked<M> {
+    fn at(&mut self, name: &str) -> &mut f64 {
+        let scalar = M::DESCRIPTION
+            .scalars()
+            .find(|scalar| scalar.name() == name)
+            .unwrap_or_else(|| panic!("no {name}"));
+        match scalar.variable.access {
+            Access::Real { at, .. } => &mut at(&mut self.0)[scalar.element],
+            _ => panic!("{name} is not a Real"),
+        }
+    }
+}
+
+impl<M: Model> Driven for Linked<M> {
+    fn set(&mut self, name: &str, value: f64) {
+        *self.at(name) = value;
+    }
+
+    fn initialize(&mut self) {
+        self.0
+            .initialize(0.0, &mut Log::silent())
+            .expect("initialized");
+    }
+
+    fn step(&mut self, t: f64) {
+        self.0
+            .step(
+                Step {
+                    start_time: 0.0,
+                    t,
+                    h: T,
+                },
+                &mut Log::silent(),
+            )
+            .expect("stepped");
+    }
+
+    fn outputs(&mut self) -> Vec<u64> {
+        let (mut reals, mut integers, mut booleans) = (Vec::new(), Vec::new(), Vec::new());
+        for row in M::DESCRIPTION
+            .variables
+            .iter()
+            .filter(|row| row.causality == Causality::Output)
+        {
+            match row.access {
+                Access::Real { at, .. } => {
+                    reals.extend(at(&mut self.0).iter().map(|value| value.to_bits()))
+                }
+                Access::Integer { at, .. } => {
+                    integers.extend(at(&mut self.0).iter().map(|&value| u64::from(value as u32)))
+                }
+                Access::Boolean { at } => {
+                    booleans.extend(at(&mut self.0).iter().map(|&value| u64::from(value)))
+                }
+                Access::String { .. } | Access::Enumeration { .. } => {}
+            }
+        }
+        [reals, integers, booleans].concat()
+    }
+
+    fn real(&mut self, name: &str) -> f64 {
+        *self.at(name)
+    }
+}
+
+/// The zero-delay loop with a hand that pushes the mass against the wall and pulls it back; all outputs of both models
+/// after each step.
+fn run(
+    controller: &mut impl Driven,
+    plant: &mut impl Driven,
+    steps: std::ops::Range<u32>,
+) -> Vec<Vec<u64>> {
+    let step = |k| {
+        let t = f64::from(k) * T;
+        let hand = 12.0 * (std::f64::consts::TAU * 0.9 * t).sin();
+        controller.set("tau_h", hand);
+        controller.set("q", plant.real("q"));
+        controller.step(t);
+        plant.set("tau_a", controller.real("tau_a"));
+        plant.set("tau_h", hand);
+        plant.step(t);
+        [controller.outputs(), plant.outputs()].concat()
+    };
+    steps.map(step).collect()
+}
+
+fn prepared<C: Driven, P: Driven>(mut controller: C, mut plant: P) -> (C, P) {
+    plant.set("wall.q", 0.02); // near, so that a second is enough to meet it
+    controller.set("K", 25.0);
+    plant.initialize();
+    controller.set("q", plant.real("q"));
+    controller.initialize();
+    (controller, plant)
+}
+
+fn imported() -> (Imported, Imported) {
+    prepared(
+        Imported::new::<TestbedController>(),
+        Imported::new::<Testbed>(),
+    )
+}
+
+#[test]
+fn the_importer_reads_the_declared_variables() {
+    fn check<M: Declare>() {
+        let read = variables(&import::<M>());
+        let declared: Vec<_> = M::DESCRIPTION.scalars().collect();
+        assert_eq!(read.len(), declared.len());
+        for ((name, reference, causality, _), scalar) in read.iter().zip(&declared) {
+            assert_eq!((name, *reference), (&scalar.name(), scalar.reference()));
+            let wanted = match scalar.variable.causality {
+                Causality::Parameter => Read::Parameter,
+                Causality::CalculatedParameter => Read::CalculatedParameter,
+                Causality::Input => Read::Input,
+                Causality::Output => Read::Output,
+                Causality::Local => Read::Local,
+            };
+            assert_eq!(*causality, wanted, "{name}");
+        }
+        let import = import::<M>();
+        assert_eq!(import.model_description().guid, M::DESCRIPTION.guid());
+        let outputs = &import.model_description().model_structure.outputs.unknowns;
+        let positions = declared
+            .iter()
+            .enumerate()
+            .filter(|(_, s)| s.variable.causality == Causality::Output);
+        let positions: Vec<_> = positions.map(|(position, _)| position as u32 + 1).collect();
+        assert_eq!(
+            outputs
+                .iter()
+                .map(|unknown| unknown.index)
+                .collect::<Vec<_>>(),
+            positions
+        );
+    }
+    check::<TestbedController>();
+    check::<Testbed>();
+}
+
+#[test]
+fn the_imported_loop_equals_the_linked_models_bit_for_bit() {
+    let (mut controller, mut plant) = imported();
+    let (mut own_controller, mut own_plant) = prepared(
+        Linked(TestbedController::default()),
+        Linked(Testbed::default()),
+    );
+    assert_eq!(
+        [controller.outputs(), plant.outputs()],
+        [own_controller.outputs(), own_plant.outputs()]
+    );
+    let through_fmi = run(&mut controller, &mut plant, 0..STEPS);
+    let linked = run(&mut own_controller, &mut own_plant, 0..STEPS);
+    for (k, (a, b)) in through_fmi.iter().zip(&linked).enumerate() {
+        assert_eq!(a, b, "after step {k}");
+    }
+    assert!(plant.real("energy.loss_wall") > 0.0, "the wall was met");
+    assert!(plant.real("q") < 0.02, "and left");
+}
+
+#[test]
+fn a_restored_state_runs_on_bit_for_bit() {
+    let (mut controller, mut plant) = imported();
+    run(&mut controller, &mut plant, 0..STEPS / 2);
+    let (controller_state, plant_state) = (
+        controller.instance.get_fmu_state().expect("saved"),
+        plant.instance.get_fmu_state().expect("saved"),
+    );
+    let first = run(&mut controller, &mut plant, STEPS / 2..STEPS);
+    use fmi::traits::FmiStatus as _;
+    controller
+        .instance
+        .set_fmu_state(&controller_state)
+        .ok()
+        .expect("restored");
+    plant
+        .instance
+        .set_fmu_state(&plant_state)
+        .ok()
+        .expect("restored");
+    assert_eq!(run(&mut controller, &mut plant, STEPS / 2..STEPS), first);
+}
+
+#[test]
+fn a_refused_call_leaves_the_instance_usable() {
+    let (mut controller, mut plant) = imported();
+    run(&mut controller, &mut plant, 0..3);
+    let before = plant.outputs();
+    for (t, h) in [
+        (3.0 * T, 0.0),
+        (3.0 * T, -T),
+        (3.0 * T, f64::NAN),
+        (3.0 * T, f64::INFINITY),
+        (0.5, T),
+    ] {
+        assert!(
+            plant.instance.do_step(t, h, true).is_err(),
+            "t = {t}, h = {h}"
+        );
+    }
+    let (q, dq) = (plant.reference("q"), plant.reference("tau_h"));
+    assert!(plant.instance.set_real(&[q], &[0.1]).is_err(), "an output");
+    assert!(plant.instance.set_real(&[dq], &[f64::NAN]).is_err(), "NaN");
+    assert!(
+        plant.instance.set_real(&[u32::MAX], &[0.0]).is_err(),
+        "no such value reference"
+    );
+    assert_eq!(plant.outputs(), before);
+    run(&mut controller, &mut plant, 3..6);
+    assert_ne!(plant.outputs(), before);
+}

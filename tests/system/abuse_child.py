@@ -1,0 +1,123 @@
+"""Child process of test_abuse: abuses one FMU through fmpy and prints what happened as JSON.
+
+Every attempt is [name, outcome, messages logged by the FMU during it].
+"""
+
+import json
+import math
+import sys
+from ctypes import byref
+from typing import Any
+
+import fmpy
+from fmpy.fmi2 import (
+    FMU2Slave,
+    fmi2CallbackAllocateMemoryTYPE,
+    fmi2CallbackFreeMemoryTYPE,
+    fmi2CallbackFunctions,
+    fmi2CallbackLoggerTYPE,
+)
+from fmpy.logging import addLoggerProxy
+
+messages: list[list[Any]] = []
+
+
+def log(_environment: int, _name: bytes, status: int, category: bytes, message: bytes) -> None:
+    messages.append([status, category.decode(), message.decode()])
+
+
+callbacks = fmi2CallbackFunctions()
+callbacks.logger = fmi2CallbackLoggerTYPE(log)
+callbacks.allocateMemory = fmi2CallbackAllocateMemoryTYPE(fmpy.calloc)
+callbacks.freeMemory = fmi2CallbackFreeMemoryTYPE(fmpy.free)
+addLoggerProxy(byref(callbacks))
+
+path = sys.argv[1]
+description = fmpy.read_model_description(path)
+folder = fmpy.extract(path)
+references = {v.name: v.valueReference for v in description.modelVariables}
+is_controller = description.modelName == "TestbedController"
+INPUT, OUTPUT, FIXED = ("q", "tau_a", "T") if is_controller else ("tau_a", "q", "M")
+T = 0.002
+report: list[list[Any]] = []
+
+
+def make(name: str, guid: str | None = None) -> Any:
+    instance = FMU2Slave(
+        guid=guid or description.guid,
+        unzipDirectory=folder,
+        modelIdentifier=description.coSimulation.modelIdentifier,
+        instanceName=name,
+    )
+    instance.instantiate(callbacks=callbacks, loggingOn=True)
+    return instance
+
+
+def attempt(name: str, call: Any) -> None:
+    messages.clear()
+    try:
+        call()
+        outcome = "OK"
+    except Exception as error:
+        outcome = str(error)
+    errors = [text for status, category, text in messages if status == 3 and category == "logStatusError"]
+    report.append([name, outcome, errors])
+
+
+def steps(instance: Any, first: int, count: int) -> list[float]:
+    values = []
+    for k in range(first, first + count):
+        instance.setReal([references["tau_h"]], [3.0])
+        instance.doStep(k * T, T)
+        values += instance.getReal([references[OUTPUT]])
+    return values
+
+
+def initialize(instance: Any) -> None:
+    instance.setupExperiment(startTime=0.0)
+    instance.enterInitializationMode()
+    instance.exitInitializationMode()
+
+
+undisturbed = make("undisturbed")
+initialize(undisturbed)
+expected = steps(undisturbed, 0, 40)
+undisturbed.freeInstance()
+
+attempt("wrong guid", lambda: make("wrong", guid="{00000000-0000-0000-0000-000000000000}"))
+
+x = make("abused")
+attempt("step before initialization", lambda: x.doStep(0.0, T))
+attempt("exit before enter", x.exitInitializationMode)
+initialize(x)
+attempt("enter initialization twice", x.enterInitializationMode)
+values = steps(x, 0, 20)
+for name, value in (("NaN", math.nan), ("+inf", math.inf), ("-inf", -math.inf)):
+    attempt(f"input {name}", lambda value=value: x.setReal([references[INPUT]], [value]))
+for name, h in (("zero", 0.0), ("negative", -1.0), ("NaN", math.nan), ("inf", math.inf)):
+    attempt(f"h {name}", lambda h=h: x.doStep(20 * T, h))
+attempt("wrong communication point", lambda: x.doStep(7.0, T))
+attempt("NaN communication point", lambda: x.doStep(math.nan, T))
+attempt("get of a bad value reference", lambda: x.getReal([0x7FFFFFFF]))
+attempt("set of a bad value reference", lambda: x.setReal([0x7FFFFFFF], [1.0]))
+attempt("get of another type", lambda: x.getInteger([references[INPUT]]))
+attempt("set of an output", lambda: x.setReal([references[OUTPUT]], [1.0]))
+attempt("set of a fixed parameter", lambda: x.setReal([references[FIXED]], [1.0]))
+attempt(
+    "a good value beside a bad one",
+    lambda: x.setReal([references[INPUT], references["tau_h"]], [1.0, math.nan]),
+)
+
+
+def make_terminated() -> None:
+    instance = make("terminated")
+    initialize(instance)
+    instance.terminate()
+    instance.terminate()
+
+
+attempt("terminate twice", make_terminated)
+values += steps(x, 20, 20)
+x.freeInstance()
+
+print(json.dumps({"report": report, "survived": values == expected, "moved": len(set(expected)) > 1}))

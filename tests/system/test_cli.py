@@ -1,0 +1,224 @@
+"""The command: exit codes, messages, and what it leaves on disk."""
+
+import json
+import shutil
+from pathlib import Path
+from xml.etree import ElementTree as ET
+
+import numpy as np
+import pyarrow as pa
+import pytest
+from typer.testing import CliRunner, Result
+
+from exo import recording, results
+from exo.cli import app
+from exo.scenario import built_in
+
+SHORT = """
+id = "short"
+title = "A second of pushing"
+about = "Law passive_bounded, free mass."
+source = "here"
+duration = 1.0
+step = 0.002
+[components.controller]
+archive = "TestbedController.fmu"
+[components.plant]
+archive = "Testbed.fmu"
+[components.plant.parameters]
+"wall.q" = 1e9
+[inputs]
+"controller.q" = "plant.q"
+"controller.tau_h" = "profile.tau_h"
+"plant.tau_a" = "controller.tau_a"
+"plant.tau_h" = "profile.tau_h"
+[[profiles.tau_h]]
+kind = "constant"
+amplitude = 3.0
+[[cases]]
+id = "push"
+[[metrics]]
+id = "moved"
+title = "how far it moved"
+unit = "m"
+function = "maximum"
+arguments = { column = "plant.q" }
+check = { at_least = 0.1 }
+source = "here"
+[[figures]]
+id = "q"
+title = "q"
+[[figures.panels]]
+y_label = "q [m]"
+curves = [{ case = "push", column = "plant.q", label = "q" }]
+"""
+
+
+@pytest.fixture
+def short(tmp_path: Path) -> Path:
+    path = tmp_path / "short.toml"
+    path.write_text(SHORT, encoding="utf-8")
+    return path
+
+
+def exo(*arguments: object) -> Result:
+    return CliRunner().invoke(app, [str(argument) for argument in arguments])
+
+
+def run(short: Path, out: Path, fmu_dir: Path, *more: str) -> Result:
+    return exo("run", short, "--out", out, "--fmu-dir", fmu_dir, *more)
+
+
+def test_list_names_every_scenario() -> None:
+    answer = exo("list")
+    assert answer.exit_code == 0
+    assert all(name in answer.output for name in built_in())
+
+
+def test_a_passing_run_exits_zero_and_leaves_everything(short: Path, tmp_path: Path, fmu_dir: Path) -> None:
+    answer = run(short, tmp_path / "out", fmu_dir)
+    assert answer.exit_code == 0, answer.output
+    folder = tmp_path / "out" / "short"
+    document = json.loads((folder / "metrics.json").read_text(encoding="utf-8"))
+    assert document["metrics"]["moved/push"]["verdict"] == "pass"
+    facts = document["run"]["fmus"]["Testbed.fmu"]
+    assert facts["guid"]
+    case = document["run"]["cases"]["push"]
+    assert case["coupling"] == "zero_delay"
+    assert case["parameters_set"] == {"plant.wall.q": 1e9}
+    assert case["parameters"]["controller.K"] == 30.0
+    assert case["real_time_factor"] > 1.0
+    columns = recording.read(folder / "signals" / "push.parquet")
+    assert len(columns["time"]) == 500
+    assert {"controller.tau_a", "plant.q", "plant.energy.residual", "controller.tick"} <= set(columns)
+    table = recording.read(folder / "signals" / "push.csv")
+    assert all((columns[name] == table[name]).all() for name in columns)
+    assert (folder / "q.png").is_file()
+    assert ET.parse(tmp_path / "out" / "junit.xml").find("testsuite/testcase").get("name") == "moved/push"
+
+
+def test_a_failed_verdict_exits_one_and_stands_in_the_junit_file(short: Path, tmp_path: Path, fmu_dir: Path) -> None:
+    # Forty times the friction: 3 N move nothing.
+    answer = run(short, tmp_path, fmu_dir, "--set", "plant.F_c=25")
+    assert answer.exit_code == 1
+    assert "fail short/" not in answer.output
+    assert "fail moved/push: 0 m, expected ≥ 0.1 (here)" in answer.output
+    suite = ET.parse(tmp_path / "junit.xml").find("testsuite")
+    assert suite.get("failures") == "1"
+    assert "expected ≥ 0.1" in suite.find("testcase/failure").get("message")
+    document = json.loads((tmp_path / "short" / "metrics.json").read_text(encoding="utf-8"))
+    assert document["run"]["overrides"] == {"plant.F_c": 25.0}
+    assert document["verdict"] == "fail"
+
+
+def test_set_takes_enumeration_items_by_name(short: Path, tmp_path: Path, fmu_dir: Path) -> None:
+    run(short, tmp_path, fmu_dir, "--set", "controller.law=standard")
+    document = json.loads((tmp_path / "short" / "metrics.json").read_text(encoding="utf-8"))
+    assert document["run"]["cases"]["push"]["parameters"]["controller.law"] == 1
+
+
+@pytest.mark.parametrize(
+    ("setting", "message"),
+    [
+        ("controller.KP=3", "TestbedController.fmu: no variable KP (close matches: K_P"),
+        ("contoller.K=3", "--set contoller.K: expected <component>.<parameter>, got component 'contoller'"),
+        ("K=3", "--set K: expected <component>.<parameter>"),
+        ("controller.K", "--set controller.K: expected <component>.<parameter>=<value>"),
+        ("controller.K=fast", "TestbedController.fmu: K: expected Real, got 'fast'"),
+        ("controller.engage=3", "TestbedController.fmu: engage: expected Boolean, got '3'"),
+        ("controller.law=pasive", "TestbedController.fmu: law: no item pasive (close matches: passive"),
+        ("controller.tau_a=3", "TestbedController.fmu: tau_a: only parameters and inputs can be set, this is output"),
+    ],
+)
+def test_a_wrong_setting_exits_two_and_says_why(
+    setting: str, message: str, short: Path, tmp_path: Path, fmu_dir: Path
+) -> None:
+    answer = run(short, tmp_path, fmu_dir, "--set", setting)
+    assert answer.exit_code == 2
+    assert message in answer.stderr
+
+
+def test_a_parameter_that_the_fmu_refuses_is_reported_with_the_fmu_s_own_words(
+    short: Path, tmp_path: Path, fmu_dir: Path
+) -> None:
+    answer = run(short, tmp_path, fmu_dir, "--set", "controller.law=natural")
+    assert answer.exit_code == 2
+    assert "controller: fmi2" in answer.stderr
+    assert "natural" in answer.stderr
+
+
+def test_an_unknown_scenario_exits_two(tmp_path: Path, fmu_dir: Path) -> None:
+    answer = run(Path("wal"), tmp_path, fmu_dir)
+    assert answer.exit_code == 2
+    assert "exo: unknown scenario wal (close matches: wall" in answer.stderr
+
+
+def test_a_missing_fmu_is_one_sentence_that_names_the_command(short: Path, tmp_path: Path) -> None:
+    answer = run(short, tmp_path, tmp_path)
+    assert answer.exit_code == 2
+    assert len(answer.stderr.strip().splitlines()) == 1
+    assert "no such FMU: run `cargo xtask fmu` first" in answer.stderr
+
+
+def test_without_any_fmu_folder_the_command_is_named(
+    short: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.delenv("EXO_FMU_DIR", raising=False)
+    answer = exo("run", short)
+    assert answer.exit_code == 2
+    assert "run `cargo xtask fmu` first, or set EXO_FMU_DIR" in answer.stderr
+
+
+def test_two_runs_give_the_same_numbers_and_compare_says_so(short: Path, tmp_path: Path, fmu_dir: Path) -> None:
+    for name in ("a", "b"):
+        run(short, tmp_path / name, fmu_dir)
+    tables = [recording.read(tmp_path / name / "short" / "signals" / "push.parquet") for name in ("a", "b")]
+    assert all(tables[0][name].tobytes() == tables[1][name].tobytes() for name in tables[0])
+    answer = exo("compare", tmp_path / "a", tmp_path / "b", "--tolerance", 0)
+    assert answer.exit_code == 0
+    assert "0 differ" in answer.output
+
+
+def test_compare_finds_a_changed_gain_and_a_missing_case(short: Path, tmp_path: Path, fmu_dir: Path) -> None:
+    run(short, tmp_path / "a", fmu_dir)
+    run(short, tmp_path / "b", fmu_dir, "--set", "controller.K=20")
+    answer = exo("compare", tmp_path / "a", tmp_path / "b")
+    assert answer.exit_code == 1
+    assert "plant.q" in answer.output
+    assert exo("compare", tmp_path / "a", tmp_path / "b", "--tolerance", 10).exit_code == 0
+    shutil.rmtree(tmp_path / "b" / "short" / "signals")
+    assert exo("compare", tmp_path / "a", tmp_path / "b", "--tolerance", 10).exit_code == 1
+
+
+def test_compare_of_two_files_measures_against_the_larger_peak(tmp_path: Path) -> None:
+    time = np.arange(3.0)
+    for name, values in (("a", [0.0, 10.0, 0.0]), ("b", [0.0, 20.0, 0.0])):
+        recording.write(pa.table({"time": time, "x": np.array(values)}), tmp_path / name)
+    files = (tmp_path / "a.parquet", tmp_path / "b.csv")
+    assert exo("compare", *files, "--tolerance", 0.499).exit_code == 1
+    assert exo("compare", *files, "--tolerance", 0.501).exit_code == 0
+
+
+def test_compare_of_nothing_exits_two(tmp_path: Path) -> None:
+    assert exo("compare", tmp_path, tmp_path).exit_code == 2
+    assert exo("compare", tmp_path, tmp_path / "none").exit_code == 2
+
+
+def test_validate_exits_one_on_problems_and_zero_without(tmp_path: Path, fmu: Path) -> None:
+    answer = exo("validate", fmu)
+    assert answer.exit_code == 0
+    assert "No problems found." in answer.output
+    broken = tmp_path / "broken.fmu"
+    broken.write_bytes(b"no archive")
+    assert exo("validate", fmu, broken).exit_code == 1
+    assert exo("validate", tmp_path / "none.fmu").exit_code == 2
+
+
+def test_the_schema_refuses_an_entry_without_its_source(short: Path, tmp_path: Path, fmu_dir: Path) -> None:
+    run(short, tmp_path, fmu_dir)
+    document = json.loads((tmp_path / "short" / "metrics.json").read_text(encoding="utf-8"))
+    validator = results.jsonschema.Draft202012Validator(results.schema())
+    assert validator.is_valid(document)
+    del document["metrics"]["moved/push"]["source"]
+    assert not validator.is_valid(document)

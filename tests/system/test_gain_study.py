@@ -1,0 +1,39 @@
+"""Scenario gain_study on the built FMUs: every verdict is a test."""
+
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from exo import benchmark
+from exo import experiment as experiments
+from exo.scenario import load
+
+from conftest import verdict_ids
+
+SCENARIO = "gain_study"
+
+
+@pytest.mark.parametrize("metric", verdict_ids(SCENARIO))
+def test_verdict_does_not_fail(metric: str, results: dict[str, Any]) -> None:
+    result = results[metric]
+    assert result.verdict != "fail", f"{result.value:.6g} {result.unit}, expected {result.expectation()}"
+
+
+def test_the_published_errors_are_met_within_two_percent(results: dict[str, Any]) -> None:
+    # The print has three digits (0.24 % at K = 7.5); the rest is friction that the paper does not publish.
+    for case in ("K7.5", "K15", "K30"):
+        result = results[f"max_error/{case}"]
+        assert result.value == pytest.approx(result.paper.value, rel=0.02)
+
+
+def test_another_gain_fails_the_verdict(fmu_dir: Path) -> None:
+    other = experiments.run(scenario=load(SCENARIO), fmu_dir=fmu_dir, overrides={"controller.K": "20"})
+    assert not other.passed
+    assert {run.parameter("controller.K") for run in other.recordings.values()} == {20.0}
+    assert other.description()["overrides"] == {"controller.K": 20.0}
+
+
+def test_the_loop_is_a_hundred_times_faster_than_real_time(fmu_dir: Path) -> None:
+    speed = benchmark.measure(fmu_dir=fmu_dir)
+    assert speed.factor >= benchmark.WANTED_FACTOR, speed.sentence()

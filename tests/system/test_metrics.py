@@ -1,0 +1,174 @@
+"""Metrics on signals whose answer is known."""
+
+import math
+
+import numpy as np
+import pytest
+
+from exo import metrics, theory
+from exo.errors import ExoError, ScenarioError
+from exo.scenario import Check, Segment
+from exo.verdict import judge
+
+from conftest import recording
+
+TIME = np.arange(1000) * 0.01
+
+
+def test_release_delay_is_the_first_tick_a_margin_from_the_wall() -> None:
+    # Down through 0.3 − 0.001 at t = 5.01 s; a dip before `after` does not count.
+    position = np.where(TIME < 5.005, 0.3, 0.2)
+    position[100] = 0.0
+    run = recording(time=TIME, plant__q=position, parameters={"plant.wall.q": 0.3})
+    delay = metrics.release_delay(run, position="plant.q", wall="plant.wall.q", margin=0.001, after=4.0)
+    assert delay == pytest.approx(1.01)
+
+
+def test_release_delay_of_a_mass_that_stays_is_nan_and_fails() -> None:
+    run = recording(time=TIME, plant__q=np.full(1000, 0.2995), parameters={"plant.wall.q": 0.3})
+    delay = metrics.release_delay(run, position="plant.q", wall="plant.wall.q", margin=0.001, after=4.0)
+    assert math.isnan(delay)
+    for check in (Check(value=1.0, within=1e9), Check(at_most=1e9), Check(at_least=-1e9)):
+        result = judge(metric="m", title="", value=delay, unit="s", check=check, source="")
+        assert result.verdict == "fail"
+        assert result.as_json()["value"] is None
+
+
+def test_windows_take_the_first_tick_and_leave_the_last() -> None:
+    run = recording(time=TIME, x=TIME)
+    assert metrics.maximum(run, column="x", after=2.0, before=3.0) == pytest.approx(2.99)
+    assert metrics.mean(run, column="x", after=2.0, before=3.0) == pytest.approx(2.495)
+    assert metrics.max_abs(run, column="x") == pytest.approx(9.99)
+
+
+def test_max_abs_sees_negative_peaks() -> None:
+    assert metrics.max_abs(recording(time=TIME, x=-TIME), column="x") == pytest.approx(9.99)
+
+
+def test_lowest_change_is_negative_once_the_column_falls_below_its_start() -> None:
+    column = np.full(1000, 10.0)
+    assert metrics.lowest_change(recording(time=TIME, E=column), column="E") == 0.0
+    column[500] = 9.5
+    assert metrics.lowest_change(recording(time=TIME, E=column), column="E") == -0.5
+
+
+def test_spring_force_takes_the_gains_from_the_run() -> None:
+    run = recording(time=TIME[:3], e=[0.0, -0.05, 0.01], parameters={"K": 30.0, "K_P": 10.0})
+    assert metrics.max_spring_force(run, error="e", K="K", K_P="K_P") == pytest.approx(15.0)
+
+
+def test_the_fit_finds_amplitude_and_phase() -> None:
+    omega = 2.0 * math.pi * 0.4
+    phasor = metrics.fit_phasor(time=TIME, signal=0.3 * np.sin(omega * TIME - 0.7), omega=omega)
+    assert abs(phasor) == pytest.approx(0.3, rel=1e-12)
+    assert np.angle(phasor) == pytest.approx(-0.7, rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("mask", "expected"), [([0, 1, 1, 0, 1, 1, 1, 0], [4, 5, 6]), ([1, 1, 0, 1], [0, 1]), ([0, 0], []), ([1], [0])]
+)
+def test_longest_stretch(mask: list[int], expected: list[int]) -> None:
+    assert metrics.longest_stretch(np.array(mask, dtype=bool)).tolist() == expected
+
+
+def wall_run(*, M_n: float) -> object:
+    """A mass that rests at a wall while the nominal follows its closed form, M_n = 10 kg, from e = 0.2 m."""
+    force = np.full(1000, 5.0)
+    e = theory.error_at_a_wall(time=TIME, f_h=force, e=0.2, de=-0.1, M_n=10.0, D_n=0.5, K_P=10.0, alpha=1.0)
+    names = {"M_n": M_n, "D_n": 0.5, "K_P": 10.0, "alpha": 1.0}
+    return recording(
+        time=TIME,
+        parameters={f"c.{name}": value for name, value in names.items()},
+        c__e_nr=e,
+        c__dq_n=np.full(1000, -0.1),
+        c__tau_h=force,
+        p__dq=np.zeros(1000),
+        p__tau_e=np.full(1000, -12.5),
+    )
+
+
+ARGUMENTS = {
+    "controller": "c",
+    "plant": "p",
+    "after": 0.0,
+    "before": 10.0,
+    "rest_speed": 0.001,
+    "at_least": 2.0,
+    "force": 5.0,
+}
+
+
+def test_the_wall_curve_fits_its_own_nominal_and_no_other() -> None:
+    assert metrics.wall_curve_error(wall_run(M_n=10.0), **ARGUMENTS) < 1e-12
+    assert metrics.wall_curve_error(wall_run(M_n=9.8), **ARGUMENTS) > 0.01
+
+
+def test_the_wall_curve_of_a_mass_that_does_not_rest_is_nan() -> None:
+    run = wall_run(M_n=10.0)
+    run["p.dq"][::150] = 0.01
+    assert math.isnan(metrics.wall_curve_error(run, **ARGUMENTS))
+
+
+def test_the_wall_curve_obeys_the_textbook_solution() -> None:
+    # Underdamped second order from rest: e = F/k (1 − exp(−ζωt)(cos ω_d t + ζ/√(1 − ζ²) sin ω_d t)); the paper's worst
+    # case has ω = 1 rad/s, ζ = 0.075, time constant 13.3 s.
+    omega, zeta = 1.0, 0.075
+    damped = omega * math.sqrt(1.0 - zeta**2)
+    decay = np.exp(-zeta * omega * TIME)
+    swing = np.cos(damped * TIME) + zeta / math.sqrt(1.0 - zeta**2) * np.sin(damped * TIME)
+    curve = theory.error_at_a_wall(
+        time=TIME, f_h=np.full(1000, 5.0), e=0.0, de=0.0, M_n=10.0, D_n=0.5, K_P=10.0, alpha=1.0
+    )
+    assert curve == pytest.approx(0.5 * (1.0 - decay * swing), abs=1e-12)
+    assert 1.0 / (zeta * omega) == pytest.approx(13.3, abs=0.05)
+
+
+def test_the_sampled_loop_tends_to_the_continuous_one_with_first_order() -> None:
+    def distance(T: float) -> float:
+        loop = theory.Loop(M=6.0, M_n=5.0, D_n=0.5, K=30.0, K_P=10.0, alpha=1.0, T=T, substep=T / 25.0)
+        return abs(theory.sampled(loop=loop, omega=5.0) / theory.continuous(loop=loop, omega=5.0) - 1.0)
+
+    assert distance(1e-3) < 0.01
+    assert distance(1e-3) / distance(5e-4) == pytest.approx(2.0, rel=0.02)
+
+
+def test_the_dc_gain_of_the_corrected_transfer_function() -> None:
+    loop = theory.Loop(M=6.0, M_n=5.0, D_n=0.5, K=30.0, K_P=10.0, alpha=1.0, T=0.002, substep=8e-5)
+    assert theory.continuous(loop=loop, omega=1e-9) == pytest.approx((1.0 + 1.0 / 30.0) / 0.5, rel=1e-6)
+
+
+def test_a_response_of_more_than_one_sine_is_refused() -> None:
+    run = recording(time=TIME, f=TIME, v=TIME)
+    sine = Segment(kind="sine", frequency=1.0)
+    object.__setattr__(run, "profiles", {"two": (sine, sine)})
+    with pytest.raises(ValueError, match="too many values"):
+        metrics.measured_response(run, force="f", velocity="v", profile="two", after=0.0)
+
+
+def test_unknown_columns_functions_and_arguments_name_what_is_known() -> None:
+    run = recording(time=TIME, plant__q=TIME)
+    with pytest.raises(ExoError, match=r"no recorded column plant\.x.*plant\.q"):
+        metrics.maximum(run, column="plant.x")
+    with pytest.raises(ScenarioError, match=r"wall: unknown function maximal.*maximum"):
+        metrics.check(function="maximal", arguments={}, owner="wall")
+    with pytest.raises(ScenarioError, match="wall: maximum: got an unexpected keyword argument 'befor'"):
+        metrics.check(function="maximum", arguments={"column": "q", "befor": 1.0}, owner="wall")
+
+
+@pytest.mark.parametrize(
+    ("check", "good", "bad"),
+    [
+        (Check(value=10.0, within=0.5), 10.5, 10.6),
+        (Check(value=-10.0, relative=0.01), -10.1, -10.2),
+        (Check(at_most=1e-9), 1e-9, 2e-9),
+        (Check(at_most=12.5, within=1e-12), 12.5 + 9e-13, 12.5 + 2e-12),
+        (Check(at_least=0.0), 0.0, -1e-15),
+    ],
+)
+def test_verdicts_turn_at_the_tolerance(check: Check, good: float, bad: float) -> None:
+    for value, verdict in ((good, "pass"), (bad, "fail")):
+        assert judge(metric="m", title="", value=value, unit="", check=check, source="").verdict == verdict
+
+
+def test_without_an_expectation_a_number_is_information() -> None:
+    assert judge(metric="m", title="", value=1.0, unit="", check=Check(), source="").verdict == "info"

@@ -1,0 +1,116 @@
+"""Scenario files: what is wrong is named with file, key, value and expectation."""
+
+import re
+
+import pytest
+
+from exo import scenario
+from exo.errors import ScenarioError
+from exo.experiment import run
+from exo.paper import lookup, published
+
+GOOD = """
+id = "mini"
+title = "A mini scenario"
+about = "One case."
+source = "here"
+duration = 1.0
+step = 0.002
+[components.controller]
+archive = "TestbedController.fmu"
+[components.plant]
+archive = "Testbed.fmu"
+[inputs]
+"controller.q" = "plant.q"
+"plant.tau_h" = "profile.tau_h"
+[[profiles.tau_h]]
+kind = "constant"
+amplitude = 1.0
+[[cases]]
+id = "only"
+[[metrics]]
+id = "m"
+title = "largest q"
+unit = "m"
+function = "maximum"
+arguments = { column = "plant.q" }
+source = "here"
+"""
+
+
+def refused(text: str) -> str:
+    with pytest.raises(ScenarioError) as error:
+        scenario.parse(text=text, origin="mini.toml")
+    return str(error.value)
+
+
+def test_the_good_one_is_good() -> None:
+    assert scenario.parse(text=GOOD, origin="mini.toml").cases[0].id == "only"
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        ("step = 0.002", "step = 0.002\nspeed = 3", r"mini\.toml: speed: unknown key, with value 3"),
+        ("amplitude = 1.0", "amplitud = 1.0", r"mini\.toml: profiles\.tau_h\.0\.amplitud: unknown key"),
+        ("duration = 1.0", 'duration = "1"', r"mini\.toml: duration: got '1'; expected: .*number"),
+        ("duration = 1.0", "duration = true", r"mini\.toml: duration: got True; expected: .*number"),
+        ("duration = 1.0", "duration = -1.0", r"mini\.toml: duration: got -1\.0; expected: .*greater than 0"),
+        ("duration = 1.0", "duration = nan", r"mini\.toml: duration: got nan; expected: .*finite"),
+        ("duration = 1.0", "duration = 1.0005", r"duration 1\.0005 s is no multiple of the step 0\.002 s"),
+        ("duration = 1.0", "", r"mini\.toml: duration: missing"),
+        ('kind = "constant"', 'kind = "sinus"', r"profiles\.tau_h\.0\.kind: got 'sinus'; expected: .*'sine'"),
+        ('kind = "constant"', 'kind = "sine"', r"a sine segment needs a frequency"),
+        ("amplitude = 1.0", "amplitude = 1.0\nt_off = -1.0", r"t_off -1\.0 s must lie after t_on 0\.0 s"),
+        ('"profile.tau_h"', '"profile.tau_g"', r"unknown profile tau_g .*tau_h"),
+        ('"plant.q"\n', '"plnt.q"\n', r"unknown component plnt .*plant"),
+        (
+            'archive = "Testbed.fmu"',
+            'archive = "../Testbed.fmu"',
+            r"components\.plant\.archive: got '\.\./Testbed\.fmu'",
+        ),
+        ('id = "only"', 'id = "only"\n[[cases]]\nid = "only"', r"case id only stands twice"),
+        ('source = "here"\n', 'source = "here"\n[broken\n', r"mini\.toml: not TOML: .*line"),
+        ('unit = "m"', 'unit = "m"\ncases = ["other"]', r"metric m: unknown case other .*only"),
+        ('unit = "m"', 'unit = "m"\ncheck = { value = 1.0 }', r"value needs exactly one of within and relative"),
+        ('unit = "m"', 'unit = "m"\ncheck = { at_most = 1.0, at_least = 0.0 }', r"one of value, at_most, at_least"),
+    ],
+)
+def test_what_is_wrong_is_named(old: str, new: str, message: str) -> None:
+    assert old in GOOD
+    assert re.search(message, refused(GOOD.replace(old, new, 1)), re.DOTALL)
+
+
+def test_every_problem_of_a_file_is_reported_at_once() -> None:
+    text = refused(GOOD.replace("step = 0.002", 'step = "fast"\nspeed = 3'))
+    assert "step: got 'fast'" in text
+    assert "speed: unknown key" in text
+
+
+@pytest.mark.parametrize("name", scenario.built_in())
+def test_built_in_scenarios_are_valid_and_carry_their_file_s_name(name: str) -> None:
+    assert scenario.load(name).id == name
+
+
+def test_an_unknown_scenario_names_close_matches() -> None:
+    with pytest.raises(ScenarioError, match=r"unknown scenario wal .*wall"):
+        scenario.load("wal")
+
+
+def test_a_wrong_function_is_refused_before_anything_runs(tmp_path: object) -> None:
+    wrong = scenario.parse(text=GOOD.replace('"maximum"', '"maximal"'), origin="mini.toml")
+    with pytest.raises(ScenarioError, match=r"mini: metric m: unknown function maximal"):
+        run(scenario=wrong, fmu_dir=tmp_path)  # type: ignore[arg-type]
+
+
+def test_a_scenario_is_frozen() -> None:
+    good = scenario.parse(text=GOOD, origin="mini.toml")
+    with pytest.raises(ValueError, match="frozen"):
+        good.duration = 2.0  # type: ignore[misc]
+
+
+def test_the_published_errors_are_those_of_the_paper() -> None:
+    assert [lookup(f"fig:1dof_perf/K={K}").value for K in ("7.5", "15", "30")] == [0.0207, 0.0103, 0.00549]
+    assert all(number.rounding > 0.0 and ":" in number.label for number in published().values())
+    with pytest.raises(ScenarioError, match=r"no fig:1dof_perf/K=3 .*K=30"):
+        lookup("fig:1dof_perf/K=3")

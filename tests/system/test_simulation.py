@@ -1,0 +1,101 @@
+"""The master on the built FMUs: start, wiring errors, and refusals in the loop."""
+
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from exo import profile, simulate
+from exo.errors import ExoError, FmuError
+from exo.fmu import Archive, Instance
+from exo.scenario import load
+
+
+def job(**changes: Any) -> simulate.Plan:
+    scenario = load("gain_study")
+    plan = simulate.plan(scenario=scenario, case=scenario.cases[2])
+    return replace(plan, duration=0.1, **changes)
+
+
+def test_the_controller_engages_at_the_plant_s_start_position(archives: Mapping[str, Archive]) -> None:
+    start = job()
+    run = simulate.simulate(
+        plan=replace(start, parameters={**start.parameters, "plant.q_start": -0.25}), archives=archives
+    )
+    assert run["plant.q"][0] == -0.25
+    assert run["controller.q_n"][0] == -0.25
+    assert run["controller.e_nr"][0] == 0.0
+    # The force ramps from zero: the first torque has nothing to answer.
+    assert run["controller.tau_a"][0] == 0.0
+
+
+def test_wired_inputs_are_set_before_initialization_ends(
+    archives: Mapping[str, Archive], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    after: dict[str, dict[str, float]] = {}
+
+    def looked_at(parts: list[simulate.Part], *_rest: Any) -> None:
+        for part in parts:
+            after[part.instance.name] = part.instance.values(["q_n", "e_nr"] if part is parts[0] else ["q"])
+
+    monkeypatch.setattr(simulate, "_run", looked_at)
+    start = job()
+    simulate.simulate(plan=replace(start, parameters={**start.parameters, "plant.q_start": -0.25}), archives=archives)
+    assert after == {"controller": {"q_n": -0.25, "e_nr": 0.0}, "plant": {"q": -0.25}}
+
+
+def test_sampled_outputs_belong_to_the_tick_and_continuous_ones_to_its_instant(archives: Mapping[str, Archive]) -> None:
+    run = simulate.simulate(plan=job(), archives=archives)
+    assert run["controller.tick"].tolist() == list(range(50))
+    assert run.time[49] == pytest.approx(0.098, abs=1e-15)
+    # e_nr = q_n − q at the same instant; half an ulp of each of the three numbers.
+    assert run["controller.q_n"] - run["plant.q"] == pytest.approx(run["controller.e_nr"], abs=1e-16)
+    assert (run["controller.q"] == run["plant.q"]).all()
+
+
+def test_all_parameters_are_read_back(archives: Mapping[str, Archive]) -> None:
+    run = simulate.simulate(plan=job(), archives=archives)
+    assert run.parameter("controller.law") == 2
+    assert run.parameter("plant.M") == 6.0
+    assert run.parameter("plant.substep") == 8e-5
+    with pytest.raises(ExoError, match=r"no parameter controller\.M .*controller\.M_n"):
+        run.parameter("controller.M")
+
+
+@pytest.mark.parametrize(
+    ("inputs", "message"),
+    [
+        ({"controller.tau_hh": "profile.tau_h"}, r"TestbedController\.fmu: no variable tau_hh \(close matches: tau_h"),
+        ({"controller.engage": "plant.q"}, "engage: only Real inputs can be wired, this is input of type Boolean"),
+        ({"controller.M_n": "plant.q"}, "M_n: only Real inputs can be wired, this is parameter of type Real"),
+        ({"plant.tau_a": "controller.tick"}, "tick: expected a Real output, this is output of type Integer"),
+        ({"plant.tau_a": "controller.torque"}, r"TestbedController\.fmu: no variable torque"),
+    ],
+)
+def test_wrong_wiring_is_named(inputs: dict[str, str], message: str, archives: Mapping[str, Archive]) -> None:
+    with pytest.raises(FmuError, match=message):
+        simulate.simulate(plan=job(inputs=inputs), archives=archives)
+
+
+def test_a_refusal_in_the_loop_says_when_and_in_the_fmu_s_words(
+    archives: Mapping[str, Archive], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def broken(*, time: np.ndarray, **_segments: Any) -> np.ndarray:
+        return np.where(time > 0.0199, np.nan, 0.0)
+
+    monkeypatch.setattr(profile, "evaluate", broken)
+    with pytest.raises(FmuError, match=r"controller: fmi2SetReal returned fmi2Error: .*tau_h.*\(step at t = 0\.02 s\)"):
+        simulate.simulate(plan=job(), archives=archives)
+
+
+def test_messages_of_two_instances_are_told_apart(archives: Mapping[str, Archive]) -> None:
+    archive = archives["TestbedController.fmu"]
+    with Instance(archive, "first") as first, Instance(archive, "second") as second:
+        first.messages.clear()
+        second.messages.clear()
+        with pytest.raises(FmuError, match=r"first: fmi2ExitInitializationMode"):
+            first.exit_initialization_mode()
+        assert len(first.messages) == 1
+        assert not second.messages

@@ -1,0 +1,75 @@
+//! The project's commands.
+//!
+//! | command | what | leaves |
+//! |---|---|---|
+//! | `cargo xtask fmu` | builds the archives | `target/fmu/*.fmu`, `target/fmu/test/` |
+//! | `cargo xtask test` | everything that is checked | |
+//! | `cargo xtask reproduce` | the paper's experiments | `results/report.html` |
+//! | `cargo xtask bench` | how fast the FMUs and the harness are | |
+//! | `cargo xtask venv` | the Python environment of the others | `.venv` |
+//!
+//! | module | what |
+//! |---|---|
+//! | [`catalogue`] | the table of the FMUs, and their committed descriptions |
+//! | [`build`] | libraries without a trace of this machine |
+//! | [`fmu`] | archives from libraries |
+//! | [`venv`] | the Python environment |
+//! | [`stages`] | commands made of stages, each with its time |
+//! | [`process`] | other programs, and what went wrong with them |
+
+mod build;
+mod catalogue;
+mod fmu;
+mod process;
+mod stages;
+mod venv;
+
+use clap::{Parser, Subcommand};
+use std::process::ExitCode;
+
+/// Passivity-based admittance control as FMUs: build, test, reproduce.
+#[derive(Parser)]
+#[command(name = "cargo xtask")]
+struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// Build the FMUs into target/fmu
+    Fmu {
+        /// Also rewrite the committed modelDescription/*.xml, so that an interface change is a diff to read
+        #[arg(long)]
+        bless: bool,
+    },
+    /// Run all checks: format, lints, documentation, Rust tests, importers, Python tests
+    Test {
+        /// Run the remaining stages after one has failed
+        #[arg(long)]
+        keep_going: bool,
+    },
+    /// Run the paper's experiments from a fresh clone to results/report.html
+    Reproduce,
+    /// Measure: FMU calls (cargo bench), harness loop
+    Bench,
+    /// Create the Python environment .venv from harness/requirements.lock
+    Venv,
+}
+
+fn main() -> ExitCode {
+    let outcome = match Arguments::parse().command {
+        Command::Fmu { bless } => stages::fmu(bless),
+        Command::Test { keep_going } => stages::test(keep_going),
+        Command::Reproduce => stages::reproduce(),
+        Command::Bench => stages::bench(),
+        Command::Venv => stages::venv(),
+    };
+    match outcome {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => {
+            eprintln!("error: {failure}");
+            ExitCode::FAILURE
+        }
+    }
+}

@@ -1,0 +1,220 @@
+//! Commands made of stages. Each stage prints its name and its time; the first failure ends the command, unless it was
+//! told to keep going.
+
+use crate::catalogue::FMUS;
+use crate::process::{Failure, Outcome, answer, cargo, program, root, run};
+use crate::venv::{Venv, check_machine, is_configured};
+use std::process::Command;
+use std::time::{Duration, Instant};
+
+/// Stages that ran, with their time and result.
+struct Stages {
+    keep_going: bool,
+    done: Vec<(&'static str, Duration, bool)>,
+}
+
+impl Stages {
+    fn new(keep_going: bool) -> Self {
+        Self {
+            keep_going,
+            done: Vec::new(),
+        }
+    }
+
+    /// Runs one stage, if none before it has stopped the command.
+    fn stage<T>(&mut self, name: &'static str, work: impl FnOnce() -> Outcome<T>) -> Option<T> {
+        if !self.keep_going && self.failed().next().is_some() {
+            return None;
+        }
+        println!("\n── {name}");
+        let began = Instant::now();
+        let outcome = work();
+        self.done.push((name, began.elapsed(), outcome.is_ok()));
+        match outcome {
+            Ok(value) => {
+                println!("   {name}: {:.1} s", began.elapsed().as_secs_f64());
+                Some(value)
+            }
+            Err(failure) => {
+                eprintln!("   {name}: {failure}");
+                None
+            }
+        }
+    }
+
+    fn failed(&self) -> impl Iterator<Item = &'static str> {
+        self.done
+            .iter()
+            .filter(|(_, _, good)| !good)
+            .map(|(name, _, _)| *name)
+    }
+
+    /// Prints the summary.
+    fn finish(self) -> Outcome {
+        println!();
+        for (name, time, good) in &self.done {
+            println!(
+                "{} {name:<14} {:7.1} s",
+                if *good { "ok    " } else { "FAILED" },
+                time.as_secs_f64()
+            );
+        }
+        let total: Duration = self.done.iter().map(|(_, time, _)| *time).sum();
+        println!("       {:<14} {:7.1} s", "total", total.as_secs_f64());
+        let failed: Vec<_> = self.failed().collect();
+        if failed.is_empty() {
+            Ok(())
+        } else {
+            Err(Failure::Stages(failed))
+        }
+    }
+}
+
+/// `cargo xtask fmu`
+pub fn fmu(bless: bool) -> Outcome {
+    crate::fmu::build_all(bless)
+}
+
+/// `cargo xtask venv`
+pub fn venv() -> Outcome {
+    Venv::ready().map(|_| ())
+}
+
+/// `cargo xtask test`
+pub fn test(keep_going: bool) -> Outcome {
+    check_machine()?;
+    let mut stages = Stages::new(keep_going);
+    stages.stage("fmt", || run(&mut cargo(["fmt", "--all", "--check"])));
+    let venv = stages.stage("venv", Venv::ready);
+    // The same environment for all of cargo's stages, so that none builds again what another has built.
+    let with_libclang = |venv: &Venv, mut command: Command| -> Outcome {
+        let headers = answer(&mut program("cc", ["-print-file-name=include"])).unwrap_or_default();
+        run(command
+            .env("LIBCLANG_PATH", venv.libclang()?)
+            .env("BINDGEN_EXTRA_CLANG_ARGS", format!("-I{headers}")))
+    };
+    if let Some(venv) = &venv {
+        stages.stage("clippy", || {
+            with_libclang(
+                venv,
+                cargo([
+                    "clippy",
+                    "--locked",
+                    "--workspace",
+                    "--all-targets",
+                    "--",
+                    "-D",
+                    "warnings",
+                ]),
+            )
+        });
+        stages.stage("rustdoc", || {
+            let mut doc = cargo(["doc", "--locked", "--workspace", "--no-deps"]);
+            doc.env("RUSTDOCFLAGS", "-D warnings");
+            with_libclang(venv, doc)
+        });
+    }
+    stages.stage("fmu", || crate::fmu::build_all(false));
+    if let Some(venv) = &venv {
+        stages.stage("cargo test", || {
+            with_libclang(
+                venv,
+                cargo(["test", "--locked", "--workspace", "--exclude", "importers"]),
+            )
+        });
+        stages.stage("importers", || {
+            with_libclang(venv, cargo(["test", "--locked", "--package", "importers"]))
+        });
+        stages.stage("ruff", || {
+            run(&mut venv.command(["-m", "ruff", "check", "harness", "tests/system"]))?;
+            run(&mut venv.command(["-m", "ruff", "format", "--check", "harness", "tests/system"]))
+        });
+        if is_configured("[tool.mypy]") {
+            stages.stage("mypy", || {
+                run(in_harness(&mut venv.command(["-m", "mypy"])))
+            });
+        }
+        stages.stage("exo validate", || {
+            run(venv
+                .exo(["validate"])
+                .args(FMUS.map(|fmu| format!("target/fmu/{}.fmu", fmu.name))))
+        });
+        stages.stage("pytest", || {
+            run(&mut venv.command(["-m", "pytest", "tests/system"]))
+        });
+    }
+    stages.finish()
+}
+
+/// `cargo xtask reproduce`
+pub fn reproduce() -> Outcome {
+    check_machine()?;
+    let mut stages = Stages::new(false);
+    let venv = stages.stage("venv", Venv::ready);
+    stages.stage("fmu", || crate::fmu::build_all(false));
+    if let Some(venv) = venv {
+        stages.stage("exo reproduce", || run(&mut venv.exo(["reproduce"])));
+    }
+    let report = root().join("results/report.html");
+    let written = report.exists();
+    let outcome = stages.finish();
+    if written {
+        println!("\nreport: {}", report.display());
+    }
+    outcome
+}
+
+/// `cargo xtask bench`
+pub fn bench() -> Outcome {
+    check_machine()?;
+    let mut stages = Stages::new(false);
+    let venv = stages.stage("venv", Venv::ready);
+    stages.stage("fmu", || crate::fmu::build_all(false));
+    stages.stage("cargo bench", || {
+        run(&mut cargo(["bench", "--locked", "--package", "abi"]))
+    });
+    if let Some(venv) = venv {
+        stages.stage("exo benchmark", || {
+            run(&mut venv.command(["-m", "exo.benchmark"]))
+        });
+    }
+    stages.finish()
+}
+
+/// Where the configuration of the Python tools lies.
+fn in_harness(command: &mut Command) -> &mut Command {
+    command.current_dir(root().join("harness"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn fails() -> Outcome {
+        Err(Failure::Missing("it is not there"))
+    }
+
+    #[test]
+    fn the_first_failure_stops_the_stages_after_it() {
+        let mut stages = Stages::new(false);
+        assert_eq!(stages.stage("one", || Ok(1)), Some(1));
+        assert_eq!(stages.stage("two", fails), None);
+        assert_eq!(stages.stage("three", || Ok(3)), None);
+        assert!(matches!(stages.finish(), Err(Failure::Stages(names)) if names == ["two"]));
+    }
+
+    #[test]
+    fn keep_going_runs_what_follows_and_still_fails() {
+        let mut stages = Stages::new(true);
+        stages.stage("one", fails);
+        assert_eq!(stages.stage("two", || Ok(2)), Some(2));
+        assert!(matches!(stages.finish(), Err(Failure::Stages(names)) if names == ["one"]));
+    }
+
+    #[test]
+    fn stages_that_succeed_succeed() {
+        let mut stages = Stages::new(false);
+        stages.stage("one", || Ok(()));
+        assert!(stages.finish().is_ok());
+    }
+}
