@@ -199,9 +199,9 @@ impl<M: Model> Instance<M> {
 
     /// fmi2DoStep
     pub(crate) fn do_step(&mut self, t: f64, h: f64) -> Outcome {
-        if !(h.is_finite() && h > 0.0) {
+        if !(h.is_normal() && h > 0.0) {
             return refused(format!(
-                "communicationStepSize = {h} s, expected a finite value above 0"
+                "communicationStepSize = {h:?} s, expected a finite normal number above 0"
             ));
         }
         let expected = self.now.time;
@@ -274,8 +274,8 @@ fn check_outputs<M: Model>(model: &mut M) -> Result<(), String> {
     for variable in M::DESCRIPTION.variables {
         if let (true, Access::Real { at, unit, .. }) = (variable.is_calculated(), variable.access) {
             let values = at(model);
-            if let Some(i) = values.iter().position(|value| !value.is_finite() && !(variable.may_be_nan && value.is_nan()))
-            {
+            let meant = |value: f64| value.is_finite() || (variable.may_be_nan && value.is_nan());
+            if let Some(i) = values.iter().position(|&value| !meant(value)) {
                 let value = values[i];
                 return Err(format!(
                     "{} = {value} {}, expected a finite value",
@@ -293,4 +293,62 @@ pub(crate) fn instance_name(name: Option<&str>) -> CString {
     name.and_then(c_name)
         .filter(|n| !n.is_empty())
         .unwrap_or_else(|| CStr::to_owned(c"(unnamed)"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Refusal;
+    use declaration::Variability::Continuous;
+    use declaration::{Declare, Description, Experiment, Stepping, real, unit};
+
+    /// Two readings, of which one may fail as NaN.
+    #[derive(Clone, Default, serde::Serialize, serde::Deserialize)]
+    struct Sensor {
+        sound: f64,
+        failing: [f64; 2],
+    }
+
+    impl Declare for Sensor {
+        const DESCRIPTION: Description<Self> = Description {
+            name: "Sensor",
+            about: "readings",
+            stepping: Stepping::Exact,
+            experiment: Experiment {
+                start: 0.0,
+                stop: 1.0,
+                tolerance: 1e-6,
+                step: 0.1,
+            },
+            variables: &[
+                real!(sound, unit::NEWTON).output(Continuous),
+                real!(failing[2], unit::NEWTON)
+                    .output(Continuous)
+                    .may_be_nan(),
+            ],
+        };
+    }
+
+    impl Model for Sensor {
+        fn initialize(&mut self, _: f64, _: &mut Log<'_>) -> Result<(), Refusal> {
+            Ok(())
+        }
+
+        fn step(&mut self, _: Step, _: &mut Log<'_>) -> Result<(), Refusal> {
+            Ok(())
+        }
+    }
+
+    #[test]
+    fn nan_leaves_a_model_only_where_its_row_says_so_and_infinity_nowhere() {
+        let check = |sound, failing| check_outputs(&mut Sensor { sound, failing });
+        assert_eq!(check(1.0, [2.0, f64::NAN]), Ok(()));
+        let refused = |name, value| Err(format!("{name} = {value} N, expected a finite value"));
+        assert_eq!(check(f64::NAN, [0.0; 2]), refused("sound", f64::NAN));
+        let infinite = f64::INFINITY;
+        assert_eq!(
+            check(0.0, [f64::NAN, infinite]),
+            refused("failing[2]", infinite)
+        );
+    }
 }

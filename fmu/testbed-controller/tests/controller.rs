@@ -319,7 +319,7 @@ fn start_values_lie_within_their_bounds_and_names_are_unique() {
                 let value = at(&mut start)[scalar.element];
                 assert!(min <= value && value <= max, "{} = {value}", scalar.name());
             }
-            Access::Enumeration { of, at } => {
+            Access::Enumeration { of, at, .. } => {
                 let value = at(&mut start)[scalar.element];
                 assert!(
                     of.items.iter().any(|item| item.value == value),

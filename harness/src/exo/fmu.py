@@ -108,12 +108,13 @@ class Archive:
         where = f"{self.path.name}: {name}"
         if variable.causality not in ("parameter", "input"):
             raise FmuError(f"{where}: only parameters and inputs can be set, this is {variable.causality}")
+        items = choices(variable)
         match variable.type, value:
             case "Boolean", bool():
                 return "Boolean", int(value)
             case "Real", int() | float() if not isinstance(value, bool):
                 return "Real", float(value)
-            case "Integer" | "Enumeration", str() | int() if not isinstance(value, bool) and (items := choices(variable)):
+            case "Integer" | "Enumeration", str() | int() if items and not isinstance(value, bool):
                 if value in items:
                     return "Integer", items[str(value)]
                 if value in items.values():

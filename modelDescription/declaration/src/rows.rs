@@ -50,9 +50,14 @@ macro_rules! integer {
     };
 }
 
-/// A Boolean: `boolean!(engage)`.
+/// A Boolean: `boolean!(engage)`, or with a name of its own `boolean!("payload.attached" => attached_at_start)`.
 #[macro_export]
 macro_rules! boolean {
+    ($name:literal => $($field:ident).+) => {
+        $crate::Variable::new($name, 1, $crate::Access::Boolean {
+            at: |m: &mut Self| ::core::slice::from_mut(&mut m.$($field).+),
+        })
+    };
     ($($field:ident).+) => {
         $crate::Variable::new($crate::row_name!($($field).+), 1, $crate::Access::Boolean {
             at: |m: &mut Self| ::core::slice::from_mut(&mut m.$($field).+),
