@@ -15,7 +15,7 @@ pub struct Fmu {
 }
 
 /// All FMUs.
-pub const FMUS: [Fmu; 2] = [
+pub const FMUS: [Fmu; 5] = [
     Fmu {
         name: "TestbedController",
         package: "testbed-controller",
@@ -25,6 +25,21 @@ pub const FMUS: [Fmu; 2] = [
         name: "Testbed",
         package: "testbed",
         read: Interface::of::<testbed::Testbed>,
+    },
+    Fmu {
+        name: "ArmController",
+        package: "arm-controller",
+        read: Interface::of::<arm_controller::ArmController>,
+    },
+    Fmu {
+        name: "ExoskeletonArm",
+        package: "exoskeleton-arm",
+        read: Interface::of::<exoskeleton_arm::ExoskeletonArm>,
+    },
+    Fmu {
+        name: "HumanOperator",
+        package: "human-operator",
+        read: Interface::of::<human_operator::HumanOperator>,
     },
 ];
 

@@ -44,6 +44,9 @@ pub struct Tick<const N: usize> {
     pub outside_bounds: bool,
     /// Whether the law is in the loop.
     pub engaged: bool,
+    /// Energy (K/alpha) f_h v_m T that the human's port brings in the sample that begins, J: for a caller who keeps a
+    /// [`Ledger`] of its own, where the force works on other coordinates than q. Not finite for alpha = 0.
+    pub supplied: f64,
 }
 
 impl<const N: usize> Admittance<N> {
@@ -106,8 +109,9 @@ impl<const N: usize> Admittance<N> {
         let Proposal { axes, ledger } = proposal;
         let done = axes.map(|axis| axis.commit(s, &self.settings));
         let f = done.map(|axis| axis.f);
+        let supplied = done.iter().map(|axis| axis.supplied).sum();
         self.axes = done.map(|axis| axis.axis);
-        self.ledger = ledger.opened(&f, done.iter().map(|axis| axis.supplied).sum());
+        self.ledger = ledger.opened(&f, supplied);
         self.engaged = true;
         Tick {
             f,
@@ -119,6 +123,7 @@ impl<const N: usize> Admittance<N> {
             saturated: axes.iter().any(|axis| axis.is_limited(s)),
             outside_bounds: axes.iter().any(|axis| axis.motion().outside_bounds()),
             engaged: true,
+            supplied,
         }
     }
 
@@ -145,6 +150,7 @@ impl<const N: usize> Admittance<N> {
             saturated: false,
             outside_bounds: false,
             engaged: false,
+            supplied: 0.0,
         }
     }
 

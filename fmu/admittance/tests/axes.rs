@@ -1,7 +1,7 @@
 //! N axes are N times the one axis, under one ledger and one factor.
 #![allow(non_snake_case, reason = "the paper's symbols")]
 
-use admittance::{Admittance, Gains, Law, Settings};
+use admittance::{Admittance, Gains, Law, Ledger, Settings};
 use nalgebra::{Vector1, Vector3};
 
 const OFFERED: [Law; 4] = [
@@ -141,4 +141,30 @@ fn a_malicious_factor_creates_energy_and_the_ledger_sees_it() {
         bounded > 1.0 && applied > bounded && paper > bounded,
         "{paper}, {applied}, {bounded} J"
     );
+}
+
+/// What a caller needs whose force works on other coordinates: H of this tick and the energy that its sample brings.
+#[test]
+fn a_ledger_kept_by_the_caller_from_a_tick_is_the_laws_own() {
+    for delayed in [false, true] {
+        let settings = Settings {
+            delayed,
+            ..settings(Law::PassiveBounded)
+        };
+        let mut law = Admittance::new(settings, GAINS).expect("valid parameters");
+        let mut own = Ledger::new(&settings);
+        for k in 0..1000 {
+            let (q, f_h) = world(k);
+            let tick = if k == 500 {
+                law.rest(&q)
+            } else {
+                law.step(&q, &f_h)
+            };
+            own = own
+                .settled(law.ledger().H(), &q)
+                .opened(&tick.f, tick.supplied);
+            assert_eq!(&own, law.ledger(), "tick {k}");
+        }
+        assert!(own.G() < -1.0);
+    }
 }

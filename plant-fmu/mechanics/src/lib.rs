@@ -40,6 +40,7 @@
 //! |---|---|
 //! | [`friction`] | Coulomb and viscous friction, reusable on any axis |
 //! | [`wall`] | unilateral Kelvin–Voigt contact with its own surface, reusable along any normal |
+//! | [`arm`] | the powered upper limb: a geared 3-DoF arm with payload, table and wall; see its page |
 //! | [`testbed`] | the 1-DoF plant: parameters, state, start, run |
 //! | [`substep`] | its implicit equation, solved in closed form |
 //! | [`energy`] | works, losses and stores, each by its own formula |
@@ -54,6 +55,7 @@
     reason = "the paper's symbols with its capitals: M, F_c"
 )]
 
+pub mod arm;
 pub mod energy;
 pub mod friction;
 pub mod parameter;

@@ -26,10 +26,13 @@ fn dependencies(package: &str, direct: bool) -> Vec<String> {
     names
 }
 
-const OURS: [&str; 8] = [
+const OURS: [&str; 11] = [
     "admittance",
+    "arm-controller",
     "declaration",
+    "exoskeleton-arm",
     "export",
+    "human-operator",
     "mechanics",
     "model-description",
     "testbed",
@@ -91,6 +94,8 @@ fn each_fmu_depends_on_its_own_side_only() {
     for (package, own, other) in [
         ("testbed-controller", "admittance", "mechanics"),
         ("testbed", "mechanics", "admittance"),
+        ("arm-controller", "admittance", "mechanics"),
+        ("exoskeleton-arm", "mechanics", "admittance"),
     ] {
         let all = dependencies(package, false);
         assert!(all.iter().any(|n| n == own), "{package}: {all:?}");

@@ -1,0 +1,140 @@
+//! Where the handle is and how it moves, as the controller knows it.
+//!
+//! Base frame: origin at the shoulder, x forward, y to the left, z up. Joints: yaw about z, shoulder pitch and elbow
+//! pitch about −y, so that positive pitch lifts. Link 3's frame has its origin on the elbow's axis, x along the link, z
+//! up when the link is level; the handle lies in its x-z plane.
+
+use nalgebra::{Matrix3, Vector3};
+use serde::{Deserialize, Serialize};
+
+/// The lengths that place the handle, m. What each is stands in its row ([`rows`](crate::rows)).
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[expect(missing_docs, reason = "a variable is described once, in its row")]
+pub struct Kinematics {
+    pub A1: f64,
+    pub L1: f64,
+    pub handle_x: f64,
+    pub handle_z: f64,
+}
+
+/// The handle at some joint angles.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pose {
+    /// Position p of the handle, base frame, m.
+    pub p: Vector3<f64>,
+    /// J = ∂p/∂q, base frame, m/rad.
+    pub J: Matrix3<f64>,
+    /// Smallest singular value of J, m/rad: the least that the handle moves for a unit of joint motion.
+    pub sigma_min: f64,
+    /// Link 3's axes in the base frame, as columns: turns a vector of link 3's frame into the base frame.
+    pub R: Matrix3<f64>,
+}
+
+impl Default for Kinematics {
+    /// The exoskeleton arm's.
+    fn default() -> Self {
+        Self {
+            A1: 0.06,
+            L1: 0.32,
+            handle_x: 0.36,
+            handle_z: 0.0,
+        }
+    }
+}
+
+impl Kinematics {
+    /// The handle at joint angles `q` (rad).
+    ///
+    /// ```text
+    /// r = (h_x cos β − h_z sin β, h_x sin β + h_z cos β),   β = q₂ + q₃        from the elbow's axis
+    /// p = R_z(q₁) (ϱ, 0, z),   ϱ = A₁ + x,   x = L₁ cos q₂ + r_x,   z = L₁ sin q₂ + r_z
+    /// J = R_z(q₁) [ 0  −z  −r_z ]
+    ///             [ ϱ   0    0  ]
+    ///             [ 0   x   r_x ]
+    /// ```
+    ///
+    /// The singular values of J are |ϱ| (the handle on the yaw axis) and those of its pitch block, whose smaller one is
+    /// |det|/σ_max with det = L₁(h_x sin q₃ + h_z cos q₃): no iteration, and exact where it matters, near zero.
+    pub fn at(&self, q: &Vector3<f64>) -> Pose {
+        let Self {
+            A1,
+            L1,
+            handle_x: h_x,
+            handle_z: h_z,
+        } = *self;
+        let (s_1, c_1) = libm::sincos(q[0]);
+        let (s_2, c_2) = libm::sincos(q[1]);
+        let (s_3, c_3) = libm::sincos(q[2]);
+        let (s_b, c_b) = (s_2 * c_3 + c_2 * s_3, c_2 * c_3 - s_2 * s_3);
+
+        let (r_x, r_z) = (h_x * c_b - h_z * s_b, h_x * s_b + h_z * c_b);
+        let (x, z) = (L1 * c_2 + r_x, L1 * s_2 + r_z);
+        let rho = A1 + x;
+        let det = L1 * (h_x * s_3 + h_z * c_3);
+        Pose {
+            p: Vector3::new(rho * c_1, rho * s_1, z),
+            #[rustfmt::skip]
+            J: Matrix3::new(
+                -rho * s_1, -z * c_1, -r_z * c_1,
+                 rho * c_1, -z * s_1, -r_z * s_1,
+                 0.0,        x,        r_x,
+            ),
+            sigma_min: libm::fmin(
+                libm::fabs(rho),
+                libm::fabs(det) / largest_singular_value([[-z, -r_z], [x, r_x]]),
+            ),
+            #[rustfmt::skip]
+            R: Matrix3::new(
+                c_1 * c_b, -s_1, -c_1 * s_b,
+                s_1 * c_b,  c_1, -s_1 * s_b,
+                s_b,        0.0,  c_b,
+            ),
+        }
+    }
+
+    /// Whether an arm can have these lengths.
+    ///
+    /// # Errors
+    /// The first length out of its range: its name in the interface, its value and the range.
+    pub fn check(&self) -> Result<(), String> {
+        let Self {
+            A1,
+            L1,
+            handle_x,
+            handle_z,
+        } = *self;
+        for (name, value) in [
+            ("A1", A1),
+            ("L1", L1),
+            ("handle_x", handle_x),
+            ("handle_z", handle_z),
+        ] {
+            if !value.is_finite() {
+                return Err(format!(
+                    "kinematics.{name} = {value}: expected a finite value"
+                ));
+            }
+        }
+        if A1 < 0.0 {
+            return Err(format!(
+                "kinematics.A1 = {A1}: expected a value not less than 0"
+            ));
+        }
+        if L1 <= 0.0 {
+            return Err(format!(
+                "kinematics.L1 = {L1}: expected a value greater than 0"
+            ));
+        }
+        if handle_x <= 0.0 {
+            return Err(format!(
+                "kinematics.handle_x = {handle_x}: expected a value greater than 0"
+            ));
+        }
+        Ok(())
+    }
+}
+
+/// Of [[a, b], [c, d]]: σ₁ + σ₂ = √((a + d)² + (b − c)²) and σ₁ − σ₂ = √((a − d)² + (b + c)²), up to the sign of det.
+fn largest_singular_value([[a, b], [c, d]]: [[f64; 2]; 2]) -> f64 {
+    0.5 * (libm::hypot(a + d, b - c) + libm::hypot(a - d, b + c))
+}

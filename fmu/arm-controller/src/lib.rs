@@ -1,0 +1,59 @@
+//! ArmController: the admittance laws at the handle of the exoskeleton arm, as a model that FMI can export.
+//!
+//! Sampled at T: at each tick it latches the joint angles q and the human's force f_h, computes where the handle is and
+//! how it moves by its own kinematics, runs one tick of the law on the three axes of the base frame and holds the joint
+//! torques tau_a until the next. All outputs are those at the tick that `tick` names.
+//!
+//! ```
+//! use arm_controller::ArmController;
+//! use export::{Log, Model, Step};
+//!
+//! let mut controller = ArmController::default();
+//! controller.f_h = [0.0, 0.0, 4.0]; // upwards
+//! controller.initialize(0.0, &mut Log::silent())?;
+//! controller.step(Step { start_time: 0.0, t: 0.0, h: 0.001 }, &mut Log::silent())?;
+//! assert_eq!(controller.tick, 0);
+//! assert!(controller.f_a[2] > 0.0 && controller.f_a[0] == 0.0);
+//! assert!(controller.tau_a[1] > 0.0); // positive pitch lifts
+//! # Ok::<(), export::Refusal>(())
+//! ```
+//!
+//! A tick, with the equations of the paper's task space:
+//! 1. p and J from q, f_h turned into the base frame if it is sensed in another one: [`kinematics`].
+//! 2. On each axis Lambda_n ddp_n + D_n dp_n = f_h − alpha y, y = de_nr + K_P e_nr, f_a = K y, near a singularity with
+//!    more damping: [`admittance`], [`singularity`].
+//! 3. tau_a = Jᵀ f_a, within ±tau_max: [`limits`]. What the limits leave is what the nominal of laws 3 and 4 feels.
+//! 4. The ledger counts the work that tau_a does at the joints: [`task_space`].
+//!
+//! | variable | symbol | unit | what |
+//! |---|---|---|---|
+//! | `q` | q | rad | joint angles: yaw, shoulder pitch, elbow pitch; positive pitch lifts |
+//! | `f_h` | f_h | N | force of the human on the handle |
+//! | `p`, `dp` | p, dp | m, m/s | the handle; x forward, y to the left, z up from the shoulder |
+//! | `p_n`, `dp_n`, `e_nr` | p_n, dp_n, p_n − p | m, m/s, m | the nominal |
+//! | `f_a`, `tau_a` | f_a, tau_a = Jᵀ f_a | N, N·m | what the controller does to the robot |
+//! | `energy.*` | H, G, E | J | what the sampled law stores and creates: [`admittance::ledger`] |
+//!
+//! | module | what |
+//! |---|---|
+//! | [`kinematics`] | position, Jacobian, smallest singular value and frame of link 3 |
+//! | [`limits`] | what the joints deliver of a torque: one common factor, or each joint clipped |
+//! | [`singularity`] | the damping that slows before a singularity |
+//! | [`task_space`] | a tick: the law at the handle, its torques and its ledger at the joints |
+//! | [`model`] | the variables, start, step, refusals |
+//! | [`rows`] | one row per variable: name, unit, bounds, description |
+
+#![forbid(unsafe_code)]
+#![allow(
+    non_snake_case,
+    reason = "fields are spelt like the paper's symbols and the interface: Lambda_n, K_P, J, T"
+)]
+
+pub mod kinematics;
+pub mod limits;
+pub mod model;
+pub mod rows;
+pub mod singularity;
+pub mod task_space;
+
+pub use model::ArmController;

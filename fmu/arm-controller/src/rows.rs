@@ -1,0 +1,246 @@
+//! One row per variable.
+
+use crate::ArmController;
+use declaration::Variability::{Discrete, Fixed, Tunable};
+use declaration::{
+    Declare, Description, Enumeration, Experiment, Item, Stepping, boolean, enumeration, integer,
+    real, unit,
+};
+
+const fn item(value: i32, name: &'static str, about: &'static str) -> Item {
+    Item { value, name, about }
+}
+
+/// The type of `law`.
+pub const LAW: Enumeration = Enumeration {
+    name: "Law",
+    about: "Admittance law: which reaction the nominal feels once the force is limited",
+    items: &[
+        item(
+            1,
+            "standard",
+            "admittance filter alone, no reaction on the nominal; sticks to walls",
+        ),
+        item(
+            2,
+            "passive",
+            "the paper's law: the nominal feels the unlimited coupling; creates energy once saturated",
+        ),
+        item(
+            3,
+            "passive_applied",
+            "the nominal feels what the torque limits leave of the force; the spring winds up and sticks",
+        ),
+        item(
+            4,
+            "passive_bounded",
+            "the nominal feels the limited force and the spring slips at f_max; passive and bounded",
+        ),
+        item(
+            5,
+            "natural",
+            "natural admittance control; not offered by this model",
+        ),
+        item(
+            6,
+            "sliding_mode",
+            "sliding-mode inner loop under a standard proxy; not offered by this model",
+        ),
+    ],
+};
+
+/// The type of `torque_limiting`.
+pub const TORQUE_LIMITING: Enumeration = Enumeration {
+    name: "TorqueLimiting",
+    about: "How joint torques beyond tau_max are brought within",
+    items: &[
+        item(
+            1,
+            "scale",
+            "all joints by one factor; the force at the handle keeps its direction",
+        ),
+        item(
+            2,
+            "clip",
+            "each joint by itself; the force at the handle turns. Under the laws standard and passive only",
+        ),
+    ],
+};
+
+/// The type of `ft.frame`.
+pub const FRAME: Enumeration = Enumeration {
+    name: "Frame",
+    about: "Frame in which the force sensor's components are given",
+    items: &[
+        item(1, "base", "base frame: x forward, y to the left, z up"),
+        item(
+            2,
+            "sensor",
+            "link 3's frame: x along the link, z up when the link is level; it turns with the link",
+        ),
+    ],
+};
+
+/// Smallest accepted sample period, gain, mass or limit, in SI units: what lies below is a mistake in a unit. The law
+/// itself asks for values greater than 0.
+const SMALLEST: f64 = 1e-6;
+
+impl Declare for ArmController {
+    const DESCRIPTION: Description<Self> = Description {
+        name: "ArmController",
+        about: "Passivity-based admittance control at the handle of the exoskeleton arm",
+        stepping: Stepping::Sampled,
+        experiment: Experiment { start: 0.0, stop: 60.0, tolerance: 1e-6, step: 0.001 },
+        variables: &[
+            real!(q[3], unit::RADIAN).input(Discrete).about(
+                "Sensed joint angles: yaw about z, shoulder pitch and elbow pitch about -y, so that positive pitch lifts",
+            ),
+            real!(f_h[3], unit::NEWTON)
+                .input(Discrete)
+                .about("Sensed force of the human on the handle, in the frame that ft.frame says"),
+            boolean!(engage).input(Discrete).about(
+                "Whether the controller is in the loop. It engages at the first tick at which this is true, with p_n = p and \
+                 dp_n = 0; while it is false tau_a is 0",
+            ),
+            real!(tau_a[3], unit::NEWTON_METRE)
+                .output(Discrete)
+                .about("Control torques on the joints, positive like q, held until the next tick (J' f_a, limited)"),
+            real!(p[3], unit::METRE)
+                .output(Discrete)
+                .initially_from(WHERE)
+                .about("Position of the handle by the controller's kinematics; base frame"),
+            real!(p_n[3], unit::METRE)
+                .output(Discrete)
+                .initially_from(WHERE)
+                .about("Nominal position of the handle (eq:obs_dyn); base frame"),
+            real!(dp_n[3], unit::METRE_PER_SECOND)
+                .output(Discrete)
+                .about("Nominal velocity of the handle (eq:obs_dyn); base frame"),
+            real!(e_nr[3], unit::METRE)
+                .output(Discrete)
+                .about("Position error p_n - p, after the slip of passive_bounded; base frame"),
+            real!(f_a[3], unit::NEWTON).output(Discrete).about(
+                "Force on the robot at the handle that tau_a amounts to (eq:dob_input, limited); base frame",
+            ),
+            boolean!(saturated)
+                .output(Discrete)
+                .about("Whether f_max (under passive_bounded) or tau_max leaves less than tau_demand"),
+            real!(sigma_min, unit::METRE_PER_RADIAN)
+                .output(Discrete)
+                .initially_from(WHERE)
+                .about("Smallest singular value of the handle's Jacobian; 0 at a singularity"),
+            integer!(tick)
+                .output(Discrete)
+                .about("Number of the tick that the outputs belong to, at startTime + tick*T; -1 before the first one"),
+            real!(energy.H, unit::JOULE)
+                .output(Discrete)
+                .about("Energy stored in nominal mass and coupling spring; 0 if alpha = 0, for which it is not defined"),
+            real!(energy.G, unit::JOULE).output(Discrete).about(
+                "Energy that the sampled law has created so far, counted with the work of tau_a at the joints; negative: \
+                 dissipated; 0 if alpha = 0",
+            ),
+            real!(energy.tank, unit::JOULE)
+                .output(Discrete)
+                .initially_from(&["energy.E_0", "alpha"])
+                .about("Energy tank: energy.E_0 less what was created, refilled by dissipation up to energy.E_0; 0 if alpha = 0"),
+            real!(dp[3], unit::METRE_PER_SECOND).output(Discrete).about(
+                "Velocity of the handle as the law uses it: backward difference of p, 0 at the first tick; base frame",
+            ),
+            real!(tau_demand[3], unit::NEWTON_METRE)
+                .output(Discrete)
+                .about("Joint torques J' K y before any limit (eq:dob_input)"),
+            boolean!(engaged).output(Discrete).about("Whether the controller was in the loop at this tick"),
+            boolean!(outside_bounds).output(Discrete).about(
+                "Whether the handle's motion since the last tick exceeded v_max or a_max along an axis, to which the passivity \
+                 argument is restricted",
+            ),
+            boolean!(slowed)
+                .output(Discrete)
+                .about("Whether sigma_min lies below singularity.sigma_slow, so that the nominal is damped more"),
+            enumeration!(law, &LAW).parameter(Fixed).about("Admittance law"),
+            real!(Lambda_n[3], unit::KILOGRAM)
+                .parameter(Tunable)
+                .at_least(SMALLEST)
+                .about("Nominal mass along x, y, z (eq:nom_dyn in task space)"),
+            real!(D_n[3], unit::NEWTON_SECOND_PER_METRE)
+                .parameter(Tunable)
+                .at_least(0.0)
+                .about("Nominal damping along x, y, z (eq:nom_dyn in task space)"),
+            real!(K[3], unit::NEWTON_SECOND_PER_METRE)
+                .parameter(Tunable)
+                .at_least(SMALLEST)
+                .about("Control gain along x, y, z, 1/epsilon of the paper (eq:dob_input)"),
+            real!(K_P[3], unit::PER_SECOND)
+                .parameter(Tunable)
+                .at_least(SMALLEST)
+                .about("Ratio of the coupling's spring to its damper along x, y, z (eq:dob_input)"),
+            real!(alpha, unit::NEWTON_SECOND_PER_METRE).parameter(Fixed).at_least(0.0).about(
+                "Damper between y and the reaction on the nominal; 1 is the unit damper that the paper hides in eq:obs_dyn",
+            ),
+            real!(f_max[3], unit::NEWTON).parameter(Tunable).at_least(SMALLEST).about(
+                "Largest force of the controller along x, y, z and bound of the coupling spring's force, under passive_bounded; \
+                 the other laws have no limit but tau_max",
+            ),
+            real!(tau_max[3], unit::NEWTON_METRE)
+                .parameter(Fixed)
+                .at_least(SMALLEST)
+                .about("Largest absolute value of tau_a"),
+            enumeration!(torque_limiting, &TORQUE_LIMITING)
+                .parameter(Fixed)
+                .about("How joint torques beyond tau_max are brought within; clip under the laws standard and passive only"),
+            real!(T, unit::SECOND).parameter(Fixed).at_least(SMALLEST).about("Sample period"),
+            integer!(delay).parameter(Fixed).within_integers(0, 1).about(
+                "Samples by which the importer's wiring delays tau_a, its first value being 0; it changes no torque, only in which \
+                 sample the ledger counts a torque's work",
+            ),
+            real!(energy.E_0, unit::JOULE)
+                .parameter(Fixed)
+                .at_least(0.0)
+                .about("Energy with which the tank starts and above which it does not fill"),
+            real!(v_max, unit::METRE_PER_SECOND)
+                .parameter(Fixed)
+                .at_least(SMALLEST)
+                .about("Largest speed of the handle along an axis for which the passivity argument is made"),
+            real!(a_max, unit::METRE_PER_SECOND_SQUARED)
+                .parameter(Fixed)
+                .at_least(SMALLEST)
+                .about("Largest acceleration of the handle along an axis for which the passivity argument is made"),
+            real!(dp_cutoff, unit::HERTZ)
+                .parameter(Fixed)
+                .at_least(0.0)
+                .about("Corner frequency of a first-order low pass on dp; 0 = off"),
+            real!(kinematics.A1, unit::METRE)
+                .parameter(Fixed)
+                .at_least(0.0)
+                .about("Length from the yaw axis forward to the shoulder's pitch axis"),
+            real!(kinematics.L1, unit::METRE)
+                .parameter(Fixed)
+                .at_least(SMALLEST)
+                .about("Length from the shoulder's pitch axis to the elbow's"),
+            real!(kinematics.handle_x, unit::METRE)
+                .parameter(Fixed)
+                .at_least(SMALLEST)
+                .about("Handle in link 3's frame: from the elbow's axis along the link, L2 of the arm"),
+            real!(kinematics.handle_z, unit::METRE)
+                .parameter(Fixed)
+                .about("Handle in link 3's frame: across the link, upwards when it is level"),
+            enumeration!(ft.frame, &FRAME).parameter(Fixed).about("Frame in which f_h is given"),
+            real!(singularity.sigma_slow, unit::METRE_PER_RADIAN)
+                .parameter(Fixed)
+                .at_least(0.0)
+                .about("sigma_min below which the nominal is damped more; 0 = off"),
+            real!(singularity.D, unit::NEWTON_SECOND_PER_METRE).parameter(Fixed).at_least(0.0).about(
+                "Slowing: below sigma_slow D_n is raised by singularity.D*((sigma_slow/sigma_min)^2 - 1), at most by 15 singularity.D",
+            ),
+        ],
+    };
+}
+
+/// What the outputs that show the handle depend on after initialization.
+const WHERE: &[&str] = &[
+    "q[i]",
+    "kinematics.A1",
+    "kinematics.L1",
+    "kinematics.handle_x",
+    "kinematics.handle_z",
+];

@@ -1,0 +1,50 @@
+//! The arm controller as a model.
+#![allow(non_snake_case, reason = "the paper's symbols")]
+
+mod axes;
+mod energy;
+mod force_sensor;
+mod limits;
+mod refusals;
+mod robot;
+mod rows;
+mod singularity;
+mod start;
+mod ticks;
+mod tuning;
+
+use arm_controller::ArmController;
+use export::{Log, Model, Step};
+
+/// Sample period of the default controller, s.
+const T: f64 = 0.001;
+
+fn controller(change: impl FnOnce(&mut ArmController)) -> ArmController {
+    let mut controller = ArmController::default();
+    change(&mut controller);
+    controller
+}
+
+fn initialized(change: impl FnOnce(&mut ArmController)) -> ArmController {
+    let mut controller = controller(change);
+    controller
+        .initialize(0.0, &mut Log::silent())
+        .expect("valid parameters");
+    controller
+}
+
+/// Step number `k` of length `h` (s) from 0 on.
+fn step(controller: &mut ArmController, k: u32, h: f64) {
+    let step = Step {
+        start_time: 0.0,
+        t: f64::from(k) * h,
+        h,
+    };
+    controller.step(step, &mut Log::silent()).expect("a step");
+}
+
+/// One tick a step.
+fn tick(controller: &mut ArmController, k: u32) {
+    step(controller, k, T);
+    assert_eq!(controller.tick, k as i32);
+}

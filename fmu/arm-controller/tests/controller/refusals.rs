@@ -1,0 +1,176 @@
+//! What cannot be, and how it is said.
+
+use crate::{ArmController, controller, initialized};
+use export::{Log, Model, Step};
+
+type Change = fn(&mut ArmController);
+
+const LAWS: &str = "expected 1 (standard), 2 (passive), 3 (passive_applied), 4 (passive_bounded)";
+
+fn refused(change: Change) -> String {
+    controller(change)
+        .initialize(0.0, &mut Log::silent())
+        .expect_err("impossible parameters")
+        .0
+}
+
+#[test]
+fn refusals_name_the_variable_the_value_and_the_range() {
+    let positive = "expected a finite value greater than 0";
+    let not_negative = "expected a finite value not less than 0";
+    let cases: [(Change, String); 25] = [
+        (
+            |c| c.law = 5,
+            format!("law = 5 (natural) is not offered: {LAWS}"),
+        ),
+        (
+            |c| c.law = 6,
+            format!("law = 6 (sliding_mode) is not offered: {LAWS}"),
+        ),
+        (|c| c.law = 0, format!("law = 0: {LAWS}")),
+        (|c| c.delay = 2, "delay = 2: expected 0 or 1".into()),
+        (|c| c.T = 0.0, format!("T = 0: {positive}")),
+        (|c| c.alpha = -1.0, format!("alpha = -1: {not_negative}")),
+        (
+            |c| c.dp_cutoff = -1.0,
+            format!("dp_cutoff = -1: {not_negative}"),
+        ),
+        (
+            |c| c.energy.E_0 = -1.0,
+            format!("energy.E_0 = -1: {not_negative}"),
+        ),
+        (
+            |c| c.v_max = 0.0,
+            "v_max = 0: expected a value greater than 0".into(),
+        ),
+        (
+            |c| c.a_max = f64::NAN,
+            "a_max = NaN: expected a value greater than 0".into(),
+        ),
+        (
+            |c| c.Lambda_n[1] = 0.0,
+            format!("Lambda_n[2] = 0: {positive}"),
+        ),
+        (
+            |c| c.D_n[0] = -0.5,
+            format!("D_n[1] = -0.5: {not_negative}"),
+        ),
+        (
+            |c| c.K[2] = f64::INFINITY,
+            format!("K[3] = inf: {positive}"),
+        ),
+        (|c| c.K_P[0] = f64::NAN, format!("K_P[1] = NaN: {positive}")),
+        (
+            |c| c.f_max[1] = -400.0,
+            "f_max[2] = -400: expected a value greater than 0".into(),
+        ),
+        (
+            |c| (c.law, c.f_max[2]) = (1, f64::NAN),
+            "f_max[3] = NaN: expected a value greater than 0".into(),
+        ),
+        (
+            |c| c.tau_max[2] = 0.0,
+            format!("tau_max[3] = 0: {positive}"),
+        ),
+        (
+            |c| c.tau_max[0] = f64::NAN,
+            format!("tau_max[1] = NaN: {positive}"),
+        ),
+        (
+            |c| c.torque_limiting = 3,
+            "torque_limiting = 3: expected 1 (scale), 2 (clip)".into(),
+        ),
+        (
+            |c| c.ft.frame = 0,
+            "ft.frame = 0: expected 1 (base), 2 (sensor)".into(),
+        ),
+        (
+            |c| c.kinematics.A1 = -0.1,
+            "kinematics.A1 = -0.1: expected a value not less than 0".into(),
+        ),
+        (
+            |c| c.kinematics.L1 = 0.0,
+            "kinematics.L1 = 0: expected a value greater than 0".into(),
+        ),
+        (
+            |c| c.kinematics.handle_x = -0.36,
+            "kinematics.handle_x = -0.36: expected a value greater than 0".into(),
+        ),
+        (
+            |c| c.kinematics.handle_z = f64::NAN,
+            "kinematics.handle_z = NaN: expected a finite value".into(),
+        ),
+        (
+            |c| c.singularity.sigma_slow = -0.1,
+            format!("singularity.sigma_slow = -0.1: {not_negative}"),
+        ),
+    ];
+    for (change, expected) in cases {
+        assert_eq!(refused(change), expected);
+    }
+}
+
+#[test]
+fn clipping_is_refused_where_the_nominal_feels_what_the_robot_gets() {
+    let clipped: [(Change, &str); 2] = [
+        (
+            |c| (c.law, c.torque_limiting) = (3, 2),
+            "law = 3 (passive_applied)",
+        ),
+        (
+            |c| (c.law, c.torque_limiting) = (4, 2),
+            "law = 4 (passive_bounded)",
+        ),
+    ];
+    for (change, law) in clipped {
+        let refusal = refused(change);
+        let expected = format!(
+            "torque_limiting = 2 (clip): expected 1 (scale) under {law}, whose nominal feels"
+        );
+        assert!(refusal.starts_with(&expected), "{refusal}");
+    }
+    for law in [1, 2] {
+        initialized(|c| (c.law, c.torque_limiting) = (law, 2));
+    }
+}
+
+#[test]
+fn a_step_before_initialization_is_refused() {
+    let step = Step {
+        start_time: 0.0,
+        t: 0.0,
+        h: 0.001,
+    };
+    let refusal = controller(|_| ())
+        .step(step, &mut Log::silent())
+        .expect_err("not initialized");
+    assert_eq!(refusal.0, "a step before initialization");
+}
+
+/// Neither a force nor a pose beyond arithmetic reaches the robot, clipped or scaled.
+#[test]
+fn a_result_that_is_not_finite_fails_the_step() {
+    let cases: [Change; 4] = [
+        |c| (c.law, c.K, c.f_h) = (1, [1e300; 3], [1e300; 3]),
+        |c| (c.law, c.K, c.f_h, c.torque_limiting) = (2, [1e300; 3], [1e300; 3], 2),
+        |c| c.q = [f64::NAN, 0.0, 0.0],
+        |c| (c.q[1], c.engage) = (f64::INFINITY, false),
+    ];
+    for (i, change) in cases.into_iter().enumerate() {
+        let mut c = initialized(change);
+        let step = Step {
+            start_time: 0.0,
+            t: 0.0,
+            h: 0.02,
+        };
+        c.q[2] += 1.0;
+        let failure = c.step(step, &mut Log::silent()).expect_err("not finite");
+        assert!(
+            failure.0.starts_with("tick ")
+                && failure.0.contains("is not finite with q = [")
+                && failure.0.contains("rad and f_h = ["),
+            "case {i}: {failure}"
+        );
+        assert_eq!(c.tau_a, [0.0; 3], "case {i}");
+    }
+}

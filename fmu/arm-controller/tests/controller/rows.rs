@@ -1,0 +1,114 @@
+//! The interface.
+
+use crate::ArmController;
+use admittance::Law;
+use arm_controller::rows::{FRAME, LAW, TORQUE_LIMITING};
+use declaration::{Access, Causality, Declare, Variability};
+use std::collections::HashSet;
+
+#[test]
+fn start_values_lie_within_their_bounds_and_names_are_unique() {
+    let mut start = ArmController::default();
+    let mut names = HashSet::new();
+    for scalar in ArmController::DESCRIPTION.scalars() {
+        let (name, i) = (scalar.name(), scalar.element);
+        assert!(names.insert(name.to_lowercase()), "{name} twice");
+        assert!(
+            !scalar.variable.about.is_empty(),
+            "{name} without description"
+        );
+        match scalar.variable.access {
+            Access::Real { min, max, at, .. } => {
+                let value = at(&mut start)[i];
+                assert!(min <= value && value <= max, "{name} = {value}");
+            }
+            Access::Integer { min, max, at } => {
+                let value = at(&mut start)[i];
+                assert!(min <= value && value <= max, "{name} = {value}");
+            }
+            Access::Enumeration { of, at, .. } => {
+                let value = at(&mut start)[i];
+                assert!(
+                    of.items.iter().any(|item| item.value == value),
+                    "{name} = {value}"
+                );
+            }
+            Access::Boolean { .. } | Access::String { .. } => {}
+        }
+    }
+}
+
+/// SPEC.md, section 7: what others rely on.
+#[test]
+fn the_names_that_others_rely_on_are_there() {
+    let names = |wanted: fn(Causality) -> bool| -> HashSet<String> {
+        ArmController::DESCRIPTION
+            .scalars()
+            .filter(|scalar| wanted(scalar.variable.causality))
+            .map(|scalar| scalar.name())
+            .collect()
+    };
+    let vectors = |names: &[&str]| -> Vec<String> {
+        let element = |name: &&str| (1..=3).map(|i| format!("{name}[{i}]")).collect::<Vec<_>>();
+        names.iter().flat_map(element).collect()
+    };
+    let scalars = |names: &[&str]| names.iter().map(ToString::to_string).collect::<Vec<_>>();
+
+    let inputs: HashSet<_> = [vectors(&["q", "f_h"]), scalars(&["engage"])]
+        .concat()
+        .into_iter()
+        .collect();
+    assert_eq!(names(|c| c == Causality::Input), inputs);
+    let outputs = names(|c| c == Causality::Output);
+    let parameters = names(|c| c == Causality::Parameter);
+    let expected_outputs = [
+        vectors(&["tau_a", "p", "p_n", "dp_n", "e_nr", "f_a"]),
+        scalars(&[
+            "saturated",
+            "sigma_min",
+            "tick",
+            "energy.H",
+            "energy.G",
+            "energy.tank",
+        ]),
+    ];
+    let expected_parameters = [
+        vectors(&["Lambda_n", "D_n", "K", "K_P", "f_max", "tau_max"]),
+        scalars(&["law", "alpha", "T", "delay", "energy.E_0", "ft.frame"]),
+    ];
+    for name in expected_outputs.concat() {
+        assert!(outputs.contains(&name), "{name}");
+    }
+    for name in expected_parameters.concat() {
+        assert!(parameters.contains(&name), "{name}");
+    }
+}
+
+#[test]
+fn gains_and_f_max_are_tunable_and_the_rest_is_fixed() {
+    for variable in ArmController::DESCRIPTION.variables {
+        if variable.causality == Causality::Parameter {
+            let gain =
+                ["Lambda_n[i]", "D_n[i]", "K[i]", "K_P[i]", "f_max[i]"].contains(&variable.name);
+            let expected = if gain {
+                Variability::Tunable
+            } else {
+                Variability::Fixed
+            };
+            assert_eq!(variable.variability, expected, "{}", variable.name);
+        }
+    }
+}
+
+#[test]
+fn enumerations_have_the_numbers_and_names_that_the_model_knows() {
+    let items = |of: declaration::Enumeration| -> Vec<_> {
+        of.items
+            .iter()
+            .map(|item| (item.value, item.name))
+            .collect()
+    };
+    assert_eq!(items(LAW), Law::ALL.map(|law| (law.number(), law.name())));
+    assert_eq!(items(TORQUE_LIMITING), [(1, "scale"), (2, "clip")]);
+    assert_eq!(items(FRAME), [(1, "base"), (2, "sensor")]);
+}

@@ -1,0 +1,24 @@
+//! Ticks and step sizes.
+
+use crate::{initialized, step};
+
+#[test]
+fn odd_step_sizes_run_the_same_ticks_as_one_step_a_tick() {
+    let run = |h: f64, steps: u32| {
+        let mut controller = initialized(|c| c.f_h = [3.0, -2.0, 5.0]);
+        (0..steps).for_each(|k| step(&mut controller, k, h));
+        controller
+    };
+    let reference = run(0.001, 30);
+    assert_eq!(reference.tick, 29);
+    for (h, steps) in [(0.0001, 300), (0.0015, 20), (0.03, 1), (0.0005, 60)] {
+        assert_eq!(run(h, steps), reference, "h = {h} s");
+    }
+    // Between two ticks outputs hold: 0.02975 s to 0.03 s contains none.
+    let mut between = run(0.00025, 119);
+    assert_eq!(between.tick, 29);
+    between.f_h = [-100.0; 3];
+    between.q = [0.0; 3];
+    step(&mut between, 119, 0.00025);
+    assert_eq!((between.tau_a, between.p), (reference.tau_a, reference.p));
+}

@@ -1,0 +1,270 @@
+//! Encoder and force sensor: what they show of a known state.
+
+mod arm;
+
+use arm::{run, started, step};
+use core::f64::consts::PI;
+use exoskeleton_arm::ExoskeletonArm;
+use exoskeleton_arm::encoder::{JOINT, MOTOR};
+use exoskeleton_arm::force_sensor::{DROPOUT, NAN, OVER_RANGE, SENSOR, STUCK};
+use exoskeleton_arm::noise::normal;
+use nalgebra::{Matrix3, Vector3};
+
+#[test]
+fn an_encoder_shows_the_nearest_of_its_counts() {
+    let counts = |kind, counts, bits| {
+        [0, 1, 2].map(|i| {
+            let gear: f64 = [354.0, 600.0, 354.0][i];
+            if kind == MOTOR {
+                f64::from(counts) * gear
+            } else {
+                f64::from(1 << bits)
+            }
+        })
+    };
+    for (kind, n, bits) in [
+        (MOTOR, 2000, 17),
+        (MOTOR, 500, 17),
+        (JOINT, 2000, 17),
+        (JOINT, 2000, 14),
+    ] {
+        let mut arm = started(|arm| {
+            arm.encoder.kind = kind;
+            arm.encoder.counts = n;
+            arm.encoder.bits = bits;
+            arm.parameters.q_start = [0.2, -1.3, 1.1];
+        });
+        arm.f_h = [150.0, 80.0, 90.0];
+        let mut seen = 0;
+        for k in 0..200 {
+            step(&mut arm, f64::from(k) * 1e-3, 1e-3);
+            for (i, per_turn) in counts(kind, n, bits).into_iter().enumerate() {
+                let turns = arm.q_joint[i] * per_turn / (2.0 * PI);
+                let count = arm.q[i] * per_turn / (2.0 * PI);
+                // 2e6 counts in double precision.
+                assert!((count - count.round()).abs() < 1e-9, "{count}");
+                assert!((count - turns).abs() <= 0.5 + 1e-9, "{count} {turns}");
+                seen += i32::from((count - turns).abs() > 0.25);
+            }
+        }
+        assert!(
+            seen > 50,
+            "{seen} of 600 readings were off by a quarter of a count or more"
+        );
+    }
+}
+
+#[test]
+fn resolutions_are_those_of_the_specification() {
+    let resolution = |change: fn(&mut ExoskeletonArm)| {
+        let arm = started(change);
+        [0, 1, 2].map(|i| arm.encoder.resolution(arm.parameters.gear[i]))
+    };
+    let near = |a: [f64; 3], b: [f64; 3]| a.iter().zip(b).all(|(a, b)| (a / b - 1.0).abs() < 1e-15);
+    let motor = [708_000.0, 1_200_000.0, 708_000.0].map(|n| 2.0 * PI / n);
+    assert!(near(resolution(|arm| arm.encoder.kind = MOTOR), motor));
+    assert!(near(
+        resolution(|arm| arm.encoder.kind = JOINT),
+        [2.0 * PI / 131_072.0; 3]
+    ));
+    assert_eq!(resolution(|_| ()), [0.0; 3]);
+}
+
+/// Link 3's axes in the base frame, as columns: yaw q₁ about z, then pitch q₂ + q₃ about −y.
+fn link_3(q: [f64; 3]) -> Matrix3<f64> {
+    let (s, c) = q[0].sin_cos();
+    let yaw = Matrix3::new(c, -s, 0.0, s, c, 0.0, 0.0, 0.0, 1.0);
+    let (s, c) = (q[1] + q[2]).sin_cos();
+    yaw * Matrix3::new(c, 0.0, -s, 0.0, 1.0, 0.0, s, 0.0, c)
+}
+
+#[test]
+fn in_its_own_frame_the_sensor_turns_with_link_3() {
+    let f_h = [60.0, -90.0, 120.0];
+    let mut arm = started(|arm| {
+        arm.ft.frame = SENSOR;
+        arm.ft.bias = [0.1, 0.2, 0.3];
+        arm.parameters.q_start = [0.4, -1.2, 1.0];
+        arm.f_h = f_h;
+    });
+    let first = arm.f_h_measured;
+    for k in 0..300 {
+        let expected =
+            link_3(arm.q_joint).transpose() * Vector3::from(f_h) + Vector3::new(0.1, 0.2, 0.3);
+        // Rounding of 162 N.
+        assert!((Vector3::from(arm.f_h_measured) - expected).amax() < 1e-12);
+        step(&mut arm, f64::from(k) * 1e-3, 1e-3);
+    }
+    assert!((arm.f_h_measured[0] - first[0]).abs() > 5.0); // it did turn
+}
+
+#[test]
+fn in_the_base_frame_the_reading_does_not_turn() {
+    let mut arm = started(|arm| arm.f_h = [60.0, -90.0, 120.0]);
+    run(&mut arm, 0, 300);
+    assert!((arm.q_joint[0] - arm.parameters.q_start[0]).abs() > 0.01);
+    assert_eq!(arm.f_h_measured, [60.0, -90.0, 120.0]);
+}
+
+#[test]
+fn noise_has_its_mean_deviation_and_seed() {
+    const N: u32 = 20_000;
+    let readings = |seed| {
+        let mut arm = started(|arm| {
+            arm.ft.noise = 0.2;
+            arm.ft.bias = [0.5, 0.0, 0.0];
+            arm.ft.seed = seed;
+            arm.f_h[1] = 1.0;
+        });
+        (0..N)
+            .map(|k| {
+                step(&mut arm, f64::from(k) * 1e-3, 1e-3);
+                arm.f_h_measured
+            })
+            .collect::<Vec<_>>()
+    };
+    let one = readings(1);
+    for (axis, expected) in [0.5, 1.0, 0.0].into_iter().enumerate() {
+        let mean = one.iter().map(|f| f[axis]).sum::<f64>() / f64::from(N);
+        let square = one
+            .iter()
+            .map(|f| (f[axis] - expected).powi(2))
+            .sum::<f64>()
+            / f64::from(N);
+        // Five standard deviations: 0.2/√N of the mean, 0.2/√(2N) of the deviation.
+        assert!(
+            (mean - expected).abs() < 5.0 * 0.2 / f64::from(N).sqrt(),
+            "{mean}"
+        );
+        assert!((square.sqrt() - 0.2).abs() < 5.0 * 0.2 / f64::from(2 * N).sqrt());
+    }
+    assert_eq!(one, readings(1));
+    assert_ne!(one, readings(2));
+}
+
+#[test]
+fn samples_belong_to_the_sensors_clock_whatever_the_steps() {
+    // At rest: friction bears 1 N. A reading is a function of the number of the latest sample alone.
+    for (period, h) in [
+        (1e-3, 1e-3),
+        (1e-3, 2.5e-4),
+        (1e-3, 1e-3 / 3.0),
+        (1e-3, 7e-3),
+        (2e-3, 1e-3),
+        (0.7e-3, 1e-3),
+    ] {
+        for accumulated in [false, true] {
+            let mut arm = started(|arm| {
+                arm.ft.noise = 1.0;
+                arm.ft.T = period;
+                arm.f_h = [1.0; 3];
+            });
+            let mut t = 0.0;
+            for k in 0..(0.3 / h) as u32 {
+                let begin = if accumulated { t } else { f64::from(k) * h };
+                step(&mut arm, begin, h);
+                t += h;
+                let sample = (f64::from(k + 1) * h / period + 1e-6).floor() as u64;
+                let expected: [f64; 3] = [0, 1, 2].map(|axis| 1.0 + normal(1, sample, axis));
+                assert_eq!(
+                    arm.f_h_measured, expected,
+                    "T = {period}, h = {h}, step {k}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn between_samples_the_reading_holds() {
+    let mut arm = started(|arm| arm.ft.T = 0.01);
+    for k in 0..40 {
+        arm.f_h[0] = f64::from(k); // held in the step that begins at k ms
+        step(&mut arm, f64::from(k) * 1e-3, 1e-3);
+        let sampled = if k < 9 { 0 } else { (k + 1) / 10 * 10 - 1 };
+        assert_eq!(arm.f_h_measured[0], f64::from(sampled), "{k}");
+    }
+}
+
+#[test]
+fn a_sample_inside_a_long_step_sees_the_pose_of_its_instant() {
+    let swinging = || {
+        started(|arm| {
+            arm.ft.frame = SENSOR;
+            arm.f_h = [60.0, -90.0, 120.0];
+            arm.parameters.dq_start = [1.0, 0.5, -0.5];
+        })
+    };
+    let (mut long, mut short) = (swinging(), swinging());
+    step(&mut long, 0.0, 1.5e-3);
+    step(&mut short, 0.0, 1e-3);
+    assert_eq!(long.f_h_measured, short.f_h_measured); // both of sample 1, at 1 ms, substeps of 0.1 ms
+    let at_end = link_3(long.q_joint).transpose() * Vector3::from(long.f_h);
+    assert!((Vector3::from(long.f_h_measured) - at_end).amax() > 1e-3);
+}
+
+#[test]
+fn readings_end_at_the_range() {
+    let mut arm = started(|arm| arm.ft.range = 20.0);
+    arm.f_h = [30.0, -25.0, 19.0];
+    run(&mut arm, 0, 1);
+    assert_eq!(arm.f_h_measured, [20.0, -20.0, 19.0]);
+}
+
+#[test]
+fn each_failure_begins_at_its_sample_and_shows_what_it_says() {
+    for failure in [STUCK, NAN, OVER_RANGE, DROPOUT] {
+        let mut arm = started(|arm| {
+            arm.ft.failure = failure;
+            arm.ft.t_failure = 0.010;
+            arm.ft.range = 50.0;
+        });
+        for k in 1..=20 {
+            arm.f_h = [f64::from(k), -f64::from(k), 1.0];
+            step(&mut arm, f64::from(k - 1) * 1e-3, 1e-3);
+            let (sound, shown) = (arm.f_h, arm.f_h_measured);
+            match failure {
+                _ if k < 10 => assert_eq!(shown, sound),
+                STUCK => assert_eq!(shown, [9.0, -9.0, 1.0]),
+                NAN => assert!(shown.iter().all(|f| f.is_nan())),
+                OVER_RANGE => assert_eq!(shown, [50.0, -50.0, 50.0]),
+                _ => assert_eq!(shown, [0.0; 3]),
+            }
+        }
+        // The plant feels the force itself.
+        assert!(arm.p.iter().chain(&arm.dq).all(|x| x.is_finite()));
+    }
+}
+
+#[test]
+fn a_failure_can_be_there_from_the_start() {
+    let shown = |failure| {
+        started(|arm| {
+            arm.ft.failure = failure;
+            arm.f_h = [4.0, -4.0, 0.0];
+        })
+        .f_h_measured
+    };
+    assert_eq!(shown(STUCK), [4.0, -4.0, 0.0]);
+    assert!(shown(NAN).iter().all(|f| f.is_nan()));
+    assert_eq!(shown(OVER_RANGE), [500.0, -500.0, 500.0]);
+    assert_eq!(shown(DROPOUT), [0.0; 3]);
+}
+
+#[test]
+fn sensors_do_not_touch_the_plant() {
+    let mut ideal = started(|arm| arm.f_h = [40.0, -50.0, 60.0]);
+    let mut bad = started(|arm| {
+        arm.f_h = [40.0, -50.0, 60.0];
+        arm.encoder.kind = JOINT;
+        arm.encoder.bits = 14;
+        arm.ft.noise = 3.0;
+        arm.ft.failure = NAN;
+        arm.ft.frame = SENSOR;
+        arm.ft.T = 3.3e-4;
+    });
+    run(&mut ideal, 0, 300);
+    run(&mut bad, 0, 300);
+    assert_eq!(ideal.plant, bad.plant);
+    assert!(ideal.energy.work_f_h > 0.1);
+}

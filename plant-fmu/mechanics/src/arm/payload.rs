@@ -1,0 +1,72 @@
+//! A payload that a vacuum cup takes from the table, holds and may lose.
+//!
+//! The payload is a point mass of no height at the pad. While it is not held it does not exist for the arm: it rests
+//! wherever the pad presses next.
+
+use nalgebra::Vector3;
+
+use super::rigid_body::RigidBody;
+
+/// The vacuum cup.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Vacuum {
+    /// Pull beyond which the bond breaks (N).
+    pub F_max: f64,
+    /// Force of the table on the pad beyond which the cup grips (N).
+    pub F_attach: f64,
+}
+
+impl Default for Vacuum {
+    fn default() -> Self {
+        Self {
+            F_max: 450.0,
+            F_attach: 5.0,
+        }
+    }
+}
+
+/// What happens to the payload at the end of a substep.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Event {
+    /// Nothing.
+    Stays,
+    /// The cup grips a payload.
+    Attaches,
+    /// The vacuum is off: the payload is left behind.
+    Released,
+    /// The bond could not bear the pull.
+    Breaks,
+}
+
+impl Vacuum {
+    /// What happens to a payload that is `attached` or not, from the vacuum's switch `on`, the `tension` of the bond
+    /// (N) and the `pressure` of the table on the pad (N).
+    pub fn event(&self, attached: bool, on: bool, tension: f64, pressure: f64) -> Event {
+        match (attached, on) {
+            (true, false) => Event::Released,
+            (true, true) if tension > self.F_max => Event::Breaks,
+            (false, true) if pressure > self.F_attach => Event::Attaches,
+            _ => Event::Stays,
+        }
+    }
+}
+
+/// Upward pull of the pad on a payload of mass `m` (kg), in N: what its acceleration `a` (m/s²) takes beyond gravity and
+/// the force `f_e` (N) of the surfaces, which act on the payload while it is held. Base frame, z.
+///
+/// ```text
+/// m a_z = tension + m g_z + f_e,z
+/// ```
+pub fn tension(m: f64, a: &Vector3<f64>, gravity: &[f64; 3], f_e: &Vector3<f64>) -> f64 {
+    m * (a.z - gravity[2]) - f_e.z
+}
+
+/// Joint velocities after a resting payload was gripped: M⁺ v⁺ = M v. The impulse acts at the pad; it is too short for
+/// friction, stops and surfaces to answer. `with` has the payload, `without` has not.
+pub fn gripped(without: &RigidBody, with: &RigidBody, v: &Vector3<f64>) -> Vector3<f64> {
+    // M⁺ is positive definite for all accepted parameters.
+    with.M
+        .try_inverse()
+        .map_or(*v, |inverse| inverse * (without.M * v))
+}

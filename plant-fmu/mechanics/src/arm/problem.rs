@@ -1,0 +1,152 @@
+//! What a substep solves: a velocity and the impulses of all set-valued forces, together.
+
+use nalgebra::{Matrix3, Vector3};
+
+use super::surface::Facing;
+
+/// The surfaces, in the order of every array of two.
+pub const FACINGS: [Facing; 2] = [Facing::Up, Facing::Back];
+
+/// Find v with
+///
+/// ```text
+/// A v = b + λ + Jᵀ (t + Σ d n)                                              A = M + dt B
+/// λᵢ  = −limit Sgn(vᵢ) + stop,   low ≤ vᵢ ≤ high,  stop ≤ 0 only at high, ≥ 0 only at low    joint i
+/// n   = max(0, push − κ dt d·w)                                             normal of a surface, w = J v
+/// tₐ ∈ −(Σ μ n) Sgn(wₐ)                                                     axis a, over surfaces tangential to it
+/// ```
+///
+/// Impulses in N·m·s at the joints, in N·s at the pad (base frame). The frictions of table and wall along y oppose the
+/// same velocity and are one force. A is positive definite, so v is unique for given limits; where more forces hold
+/// than are needed, how they share the load is not determined by any equation, and v does not depend on it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Problem {
+    /// M + dt B (kg·m²): viscous friction is implicit.
+    pub A: Matrix3<f64>,
+    /// M v₀ + dt (all other torques) (N·m·s).
+    pub b: Vector3<f64>,
+    /// Friction and stops of the joints.
+    pub joints: [Joint; 3],
+    /// Jacobian of the pad, base frame (m/rad).
+    pub J: Matrix3<f64>,
+    /// Table and wall.
+    pub contacts: [Contact; 2],
+}
+
+/// Set-valued forces on a joint.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Joint {
+    /// Largest impulse of dry friction (N·m·s).
+    pub limit: f64,
+    /// Velocity that reaches the lower stop within the substep (rad/s), ≤ 0.
+    pub low: f64,
+    /// Velocity that reaches the upper stop within the substep (rad/s), ≥ 0.
+    pub high: f64,
+}
+
+/// Contact of the pad with a surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Contact {
+    /// Impulse if the pad did not move along the normal (N·s); negative: a gap.
+    pub push: f64,
+    /// By how much the impulse shrinks per velocity along the push: κ dt (kg).
+    pub kappa_dt: f64,
+    /// Coefficient of friction.
+    pub mu: f64,
+}
+
+/// Velocity and impulses.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Solution {
+    /// Joint velocities at the end of the substep (rad/s).
+    pub v: Vector3<f64>,
+    /// Impulse of friction and stop on each joint (N·m·s).
+    pub joint: Vector3<f64>,
+    /// Impulse of each surface along its normal, on the pad (N·s), ≥ 0.
+    pub normal: [f64; 2],
+    /// Impulse of tangential friction on the pad, base frame (N·s).
+    pub tangent: Vector3<f64>,
+    /// How it was found.
+    pub path: Path,
+}
+
+/// How a solution was found.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub enum Path {
+    /// The forces that held, slid and pushed in the last substep still did.
+    #[default]
+    Guessed,
+    /// After this many changes of the guess.
+    Revised(u32),
+    /// After this many sweeps of projected Gauss–Seidel, when revisions went in circles.
+    Swept(u32),
+}
+
+impl Problem {
+    /// Largest impulse of friction along each axis of the pad (N·s), from the impulses of the normals.
+    pub fn grip(&self, normal: &[f64; 2]) -> Vector3<f64> {
+        let mut grip = Vector3::zeros();
+        for (k, facing) in FACINGS.iter().enumerate() {
+            for axis in 0..3 {
+                if axis != facing.axis() {
+                    grip[axis] += self.contacts[k].mu * normal[k];
+                }
+            }
+        }
+        grip
+    }
+
+    /// Impulse of the surfaces on the pad, base frame (N·s): t + Σ d n.
+    pub fn on_pad(&self, normal: &[f64; 2], tangent: &Vector3<f64>) -> Vector3<f64> {
+        let mut impulse = *tangent;
+        for (k, facing) in FACINGS.iter().enumerate() {
+            impulse[facing.axis()] += facing.sign() * normal[k];
+        }
+        impulse
+    }
+
+    /// Impulses that count as rounding (N·m·s, N·s): 1e-14 of the largest in the equation. Solving it costs some 50
+    /// roundings of 1e-16 each, times a condition number of A of 10 to 30 that acts on the velocity only.
+    pub(crate) fn rounding(&self) -> f64 {
+        let mut scale = self.b.amax();
+        for joint in &self.joints {
+            scale = scale.max(joint.limit);
+        }
+        for contact in &self.contacts {
+            scale = scale.max(contact.push);
+        }
+        1e-14 * scale
+    }
+}
+
+impl Contact {
+    /// push − κ dt d·w: impulse of the surface if it could also pull (N·s), for the velocity `w` of the pad (m/s).
+    pub fn pressure(&self, facing: Facing, w: &Vector3<f64>) -> f64 {
+        self.push - self.kappa_dt * facing.sign() * w[facing.axis()]
+    }
+}
+
+impl Joint {
+    /// The impulse of a joint that friction and stops keep at rest: −limit ..= limit, and beyond where a stop is
+    /// touched.
+    pub(crate) fn holds(&self) -> (f64, f64) {
+        (
+            if self.high > 0.0 {
+                -self.limit
+            } else {
+                f64::NEG_INFINITY
+            },
+            if self.low < 0.0 {
+                self.limit
+            } else {
+                f64::INFINITY
+            },
+        )
+    }
+
+    /// The share of friction in the impulse `joint` (N·m·s); the rest is the stop's.
+    pub fn friction(&self, joint: f64) -> f64 {
+        joint.max(-self.limit).min(self.limit)
+    }
+}

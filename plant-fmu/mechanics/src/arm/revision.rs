@@ -1,0 +1,154 @@
+//! Where a guess contradicts the solution that was found from it, and what to guess instead.
+
+use super::guess::{Guess, Motion};
+use super::problem::{FACINGS, Problem, Solution};
+
+/// What counts as a contradiction: one that rounding does not explain.
+pub(crate) struct Check<'a> {
+    problem: &'a Problem,
+    /// Impulse (N·m·s, N·s).
+    impulse: f64,
+    /// Velocity of each joint (rad/s).
+    v: [f64; 3],
+    /// Velocity of the pad (m/s).
+    w: f64,
+}
+
+impl<'a> Check<'a> {
+    pub(crate) fn of(problem: &'a Problem) -> Self {
+        let impulse = problem.rounding();
+        let v = [0, 1, 2].map(|i| impulse / problem.A[(i, i)]);
+        let w = problem.J.amax() * (v[0] + v[1] + v[2]);
+        Self {
+            problem,
+            impulse,
+            v,
+            w,
+        }
+    }
+
+    /// Revises `guess` where `solution`, found from it, contradicts it: everywhere, or where it does first. Returns
+    /// whether it did.
+    pub(crate) fn revise(&self, solution: &Solution, guess: &mut Guess, singly: bool) -> bool {
+        let mut revised = false;
+        let w = self.problem.J * solution.v;
+        for (k, facing) in FACINGS.iter().enumerate() {
+            let n = self.problem.contacts[k].pressure(*facing, &w);
+            if guess.pushes[k] && n < -self.impulse {
+                guess.pushes[k] = false;
+                revised = true;
+            } else if !guess.pushes[k] && n > self.impulse {
+                let rubbed = [0, 1, 2].map(|axis| guess.rubs(axis));
+                guess.pushes[k] = true;
+                for axis in 0..3 {
+                    if !rubbed[axis] && guess.rubs(axis) {
+                        guess.pad[axis] = sliding(w[axis], self.w);
+                    }
+                }
+                revised = true;
+            }
+            if singly && revised {
+                return true;
+            }
+        }
+        let grip = self.problem.grip(&solution.normal);
+        for axis in 0..3 {
+            if guess.rubs(axis) {
+                let next = self.pad(guess.pad[axis], w[axis], solution.tangent[axis], grip[axis]);
+                revised |= next != guess.pad[axis];
+                guess.pad[axis] = next;
+                if singly && revised {
+                    return true;
+                }
+            }
+        }
+        for i in 0..3 {
+            let next = self.joint(i, guess.joint[i], solution);
+            revised |= next != guess.joint[i];
+            guess.joint[i] = next;
+            if singly && revised {
+                return true;
+            }
+        }
+        revised
+    }
+
+    /// The motion along an axis of the pad that follows from its velocity `w` and friction `t` under `grip`.
+    fn pad(&self, motion: Motion, w: f64, t: f64, grip: f64) -> Motion {
+        match motion {
+            Motion::Forward if w < -self.w => Motion::Held,
+            Motion::Backward if w > self.w => Motion::Held,
+            Motion::Forward | Motion::Backward => motion,
+            // Friction at its limit slides against its force; an axis that no force could hold slides as it moves.
+            _ if t.abs() > grip.max(0.0) + self.impulse => sliding(-t, 0.0),
+            _ => sliding(w, self.w),
+        }
+    }
+
+    /// The motion of joint `i` that follows from its velocity and impulse.
+    fn joint(&self, i: usize, motion: Motion, solution: &Solution) -> Motion {
+        let joint = &self.problem.joints[i];
+        let (v, impulse) = (solution.v[i], solution.joint[i]);
+        let (least, most) = joint.holds();
+        match motion {
+            Motion::Forward if v < -self.v[i] => Motion::Held,
+            Motion::Forward if v > joint.high + self.v[i] => beyond(joint.high, Motion::High),
+            Motion::Backward if v > self.v[i] => Motion::Held,
+            Motion::Backward if v < joint.low - self.v[i] => beyond(joint.low, Motion::Low),
+            Motion::Held if impulse < least - self.impulse => Motion::Forward,
+            Motion::Held if impulse > most + self.impulse => Motion::Backward,
+            Motion::High if impulse > -joint.limit + self.impulse => Motion::Forward,
+            Motion::Low if impulse < joint.limit - self.impulse => Motion::Backward,
+            _ => motion,
+        }
+    }
+
+    /// The guess that a solution of another method amounts to.
+    pub(crate) fn seen(&self, solution: &Solution) -> Guess {
+        let mut guess = Guess::default();
+        let w = self.problem.J * solution.v;
+        for k in 0..FACINGS.len() {
+            guess.pushes[k] = solution.normal[k] > self.impulse;
+        }
+        let grip = self.problem.grip(&solution.normal);
+        for axis in 0..3 {
+            if solution.tangent[axis].abs() >= grip[axis] {
+                guess.pad[axis] = sliding(w[axis], self.w);
+            }
+        }
+        for i in 0..3 {
+            let joint = &self.problem.joints[i];
+            let (v, impulse) = (solution.v[i], solution.joint[i]);
+            guess.joint[i] = if v >= joint.high && joint.high > 0.0 {
+                Motion::High
+            } else if v <= joint.low && joint.low < 0.0 {
+                Motion::Low
+            } else if impulse.abs() >= joint.limit {
+                sliding(v, self.v[i])
+            } else {
+                Motion::Held
+            };
+        }
+        guess
+    }
+}
+
+/// Sliding in the sense of `velocity`, or held where that is within `rounding`.
+fn sliding(velocity: f64, rounding: f64) -> Motion {
+    if velocity > rounding {
+        Motion::Forward
+    } else if velocity < -rounding {
+        Motion::Backward
+    } else {
+        Motion::Held
+    }
+}
+
+/// A joint that would pass a stop arrives at it, or leans on it if it is there.
+fn beyond(velocity: f64, arrives: Motion) -> Motion {
+    if velocity == 0.0 {
+        Motion::Held
+    } else {
+        arrives
+    }
+}

@@ -1,0 +1,76 @@
+//! What goes into the arm, where it is, and what it shows.
+
+use nalgebra::Vector3;
+
+use super::kinematics::{Point, Pose};
+use super::parameters::Parameters;
+use super::problem::Path;
+
+/// What acts on the arm, held over a run of substeps.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Inputs {
+    /// Torques τ_a asked of the drives (N·m), positive as the joints.
+    pub tau_a: [f64; 3],
+    /// Force f_h of the human on the handle, base frame (N).
+    pub f_h: [f64; 3],
+    /// Force f_d of a disturbance on the pad, base frame (N).
+    pub f_d: [f64; 3],
+    /// Whether the vacuum is on.
+    pub vacuum: bool,
+}
+
+/// Where the arm is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct State {
+    /// Joint angles (rad).
+    pub q: Vector3<f64>,
+    /// Joint velocities (rad/s).
+    pub dq: Vector3<f64>,
+    /// Torques τ that arrive at the joints (N·m).
+    pub tau: Vector3<f64>,
+    /// Deflections of table and wall (m), ≥ 0 and never less than the pad's penetration.
+    pub s: [f64; 2],
+    /// Whether a payload hangs at the pad.
+    pub attached: bool,
+}
+
+/// What the last substep showed. Means over it.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Shown {
+    /// Force of table and wall on the pad, or on the payload that it holds; base frame (N).
+    pub f_e: Vector3<f64>,
+    /// Torque of dry and viscous friction on the joints (N·m).
+    pub tau_f: Vector3<f64>,
+    /// Upward pull of the pad on the payload (N); 0 without.
+    pub tension: f64,
+    /// Whether table or wall pushed.
+    pub contact: bool,
+    /// How the solution was found.
+    pub path: Path,
+}
+
+/// Pose, handle and pad at one q.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Place {
+    /// Sines and cosines.
+    pub pose: Pose,
+    /// Handle.
+    pub handle: Point,
+    /// Pad.
+    pub pad: Point,
+}
+
+impl Place {
+    /// The arm at joint angles `q` (rad).
+    pub fn at(parameters: &Parameters, q: &Vector3<f64>) -> Self {
+        let lengths = &parameters.lengths;
+        let pose = Pose::at(q);
+        Self {
+            pose,
+            handle: pose.point(lengths, lengths.handle),
+            pad: pose.point(lengths, lengths.pad),
+        }
+    }
+}

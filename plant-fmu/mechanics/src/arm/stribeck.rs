@@ -1,0 +1,76 @@
+//! Dry friction of a geared joint that grips harder at rest, and viscous friction.
+
+/// Friction of one joint. On the joint acts τ_f, with −τ_f ∈ F(v) Sgn(v) + b v, Sgn(0) = \[−1, 1\] and
+///
+/// ```text
+/// F(v) = F_c + (F_s − F_c) exp(−(v/v_s)²)
+/// ```
+///
+/// At rest friction is whatever holds the joint, up to F_s: it does not creep.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Stribeck {
+    /// Coulomb friction F_c (N·m).
+    pub F_c: f64,
+    /// Stiction F_s ≥ F_c (N·m).
+    pub F_s: f64,
+    /// Stribeck velocity v_s (rad/s).
+    pub v_s: f64,
+    /// Viscous friction b (N·m·s/rad).
+    pub b: f64,
+}
+
+impl Stribeck {
+    /// Beyond this (v/v_s)² the exponential is a denormal number or zero: it is taken as zero.
+    const GONE: f64 = 700.0;
+
+    /// F(v) (N·m) at `v` (rad/s). A substep takes it at the velocity at its begin: F decreases with |v|, and implicit it
+    /// would allow two velocities at once.
+    pub fn limit(&self, v: f64) -> f64 {
+        if v == 0.0 {
+            return self.F_s;
+        }
+        let ratio = v / self.v_s;
+        let square = ratio * ratio;
+        if square > Self::GONE {
+            return self.F_c;
+        }
+        self.F_c + (self.F_s - self.F_c) * libm::exp(-square)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const JOINT: Stribeck = Stribeck {
+        F_c: 12.0,
+        F_s: 16.0,
+        v_s: 0.03,
+        b: 8.0,
+    };
+
+    #[test]
+    fn friction_is_stiction_at_rest_and_coulomb_far_from_it() {
+        assert_eq!(JOINT.limit(0.0), 16.0);
+        assert_eq!(JOINT.limit(-0.0), 16.0);
+        assert_eq!(JOINT.limit(1.0), 12.0);
+        assert_eq!(JOINT.limit(f64::MAX), 12.0);
+    }
+
+    #[test]
+    fn at_the_stribeck_velocity_one_part_in_e_of_the_excess_is_left() {
+        let expected = 12.0 + 4.0 * 0.367_879_441_171_442_33; // 1/e; one rounding of 16
+        assert!((JOINT.limit(0.03) - expected).abs() < 4e-15);
+        assert_eq!(JOINT.limit(-0.03), JOINT.limit(0.03));
+    }
+
+    #[test]
+    fn the_limit_never_comes_from_a_denormal_exponential() {
+        let bare = Stribeck { F_c: 0.0, ..JOINT };
+        for k in 0..4000 {
+            let limit = bare.limit(f64::from(k) * 2.5e-4);
+            assert!(limit == 0.0 || limit.is_normal(), "{k}: {limit:e}");
+        }
+    }
+}

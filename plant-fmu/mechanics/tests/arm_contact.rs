@@ -1,0 +1,215 @@
+//! Stops, table and wall: what they hold, how they rub.
+
+use mechanics::arm::{Arm, Inputs, Parameters, Start};
+use nalgebra::Vector3;
+
+/// Weightless, without dry friction in the joints, which leaves equilibrium to the surfaces; viscous friction calms it.
+fn weightless() -> Parameters {
+    let mut parameters = Parameters {
+        drive_cutoff: 0.0,
+        ..Parameters::default()
+    };
+    parameters.masses.gravity = [0.0; 3];
+    for friction in &mut parameters.friction {
+        (friction.F_c, friction.F_s, friction.b) = (0.0, 0.0, 20.0);
+    }
+    parameters
+}
+
+/// Substep (s) of these tests.
+const DT: f64 = 2e-4;
+/// Substeps that settle: the surfaces' 3000 N·s/m damp every motion of the arm with 15 1/s or more, exp(−15 · 2) = 1e-13.
+const SETTLE: u32 = 10_000;
+
+/// Table `gap` under and wall `gap` before the pad in its start pose.
+fn corner(gap: f64) -> Parameters {
+    let pad = Arm::default().place().pad.p;
+    let mut parameters = weightless();
+    parameters.table.position = pad.z - gap;
+    parameters.wall.position = pad.x + gap;
+    (parameters.table.c, parameters.wall.c) = (3e3, 3e3);
+    parameters
+}
+
+fn pushed(f_d: [f64; 3]) -> Inputs {
+    Inputs {
+        f_d,
+        ..Inputs::default()
+    }
+}
+
+#[test]
+fn a_joint_arrives_at_its_stop_stays_there_and_leaves_when_pulled() {
+    let mut arm = Arm::new(weightless(), &Start::default()).unwrap();
+    let push = Inputs {
+        tau_a: [100.0, 0.0, 0.0],
+        ..Inputs::default()
+    };
+    let mut before = arm;
+    while arm.q()[0] < 1.2 {
+        before = arm;
+        arm.advance(&push, 1, 1e-4);
+        assert!(arm.q()[0] <= 1.2);
+    }
+    let fast = before.dq()[0];
+    assert!(fast > 1.0);
+    arm.advance(&push, 5_000, 1e-4);
+    assert_eq!((arm.q()[0], arm.dq()[0]), (1.2, 0.0));
+    // The pitch joints have no part in it: M₁₂ = M₁₃ = 0.
+    let body = mechanics::arm::rigid_body::RigidBody::at(
+        &before.place().pose,
+        &arm.parameters().lengths,
+        &arm.parameters().masses,
+        0.0,
+    );
+    let impact = 0.5 * body.M[(0, 0)] * fast * fast;
+    // The torque works on through the last, partial substep: dt/t of the impact's energy.
+    assert!(
+        (arm.energy().loss_stop / impact - 1.0).abs() < 2e-3,
+        "{} {impact}",
+        arm.energy().loss_stop
+    );
+
+    arm.advance(
+        &Inputs {
+            tau_a: [-1.0, 0.0, 0.0],
+            ..Inputs::default()
+        },
+        100,
+        1e-4,
+    );
+    assert!(arm.dq()[0] < 0.0, "a stop does not hold back");
+}
+
+#[test]
+fn a_stop_is_never_passed_not_by_rounding_either() {
+    for k in 0..100 {
+        let mut parameters = weightless();
+        parameters.stops[0].max = 0.01 + 1e-4 * f64::from(k);
+        let mut arm = Arm::new(parameters, &Start::default()).unwrap();
+        let push = Inputs {
+            tau_a: [1000.0, 0.0, 0.0],
+            ..Inputs::default()
+        };
+        arm.advance(&push, 100, DT);
+        assert_eq!((arm.q()[0], arm.dq()[0]), (parameters.stops[0].max, 0.0));
+    }
+}
+
+#[test]
+fn lower_stops_hold_the_pitch_joints() {
+    let mut arm = Arm::new(weightless(), &Start::default()).unwrap();
+    let push = Inputs {
+        tau_a: [0.0, -60.0, -60.0],
+        ..Inputs::default()
+    };
+    for _ in 0..300 {
+        arm.advance(&push, 50, DT);
+        assert!(arm.q()[1] >= -2.0 && arm.q()[2] >= 0.1);
+    }
+    assert_eq!(
+        (arm.q()[1], arm.q()[2], arm.dq()),
+        (-2.0, 0.1, Vector3::zeros())
+    );
+}
+
+#[test]
+fn at_rest_the_table_bears_the_load_by_its_stiffness() {
+    let parameters = corner(1e-3);
+    let mut arm = Arm::new(parameters, &Start::default()).unwrap();
+    arm.advance(&pushed([0.0, 0.0, -50.0]), SETTLE, DT);
+    assert!(
+        (arm.f_e() - Vector3::new(0.0, 0.0, 50.0)).amax() < 1e-9,
+        "{}",
+        arm.f_e()
+    );
+    let penetration = parameters.table.position - arm.place().pad.p.z;
+    assert!((penetration - 50.0 / 1e5).abs() < 1e-12, "{penetration}");
+    assert!((arm.state().s[0] - penetration).abs() < 1e-15);
+}
+
+#[test]
+fn the_wall_bears_the_load_along_x() {
+    let mut arm = Arm::new(corner(1e-3), &Start::default()).unwrap();
+    arm.advance(&pushed([60.0, 0.0, 0.0]), SETTLE, DT);
+    assert!(
+        (arm.f_e() - Vector3::new(-60.0, 0.0, 0.0)).amax() < 1e-9,
+        "{}",
+        arm.f_e()
+    );
+}
+
+#[test]
+fn surfaces_never_pull() {
+    let mut arm = Arm::new(corner(1e-3), &Start::default()).unwrap();
+    arm.advance(&pushed([60.0, 0.0, -50.0]), 1_000, DT);
+    for _ in 0..2_500 {
+        arm.advance(&pushed([-80.0, 0.0, 300.0]), 1, DT);
+        let grip = 0.4 * (arm.f_e().z.abs() + arm.f_e().x.abs());
+        assert!(
+            arm.f_e().z >= -grip
+                && arm.f_e().x <= grip
+                && (arm.contact() || arm.f_e() == Vector3::zeros())
+        );
+    }
+    assert_eq!((arm.f_e(), arm.contact()), (Vector3::zeros(), false));
+    // The surfaces have relaxed with a time constant of 30 ms.
+    assert!(
+        arm.state().s.iter().all(|s| (0.0..1e-8).contains(s)),
+        "{:?}",
+        arm.state().s
+    );
+}
+
+/// Pressed with `press`, then rubbed with `rub` besides: the friction that answers, and the displacement of the pad.
+fn rubbed(press: [f64; 3], rub: [f64; 3]) -> (Vector3<f64>, Vector3<f64>) {
+    let mut arm = Arm::new(corner(1e-3), &Start::default()).unwrap();
+    arm.advance(&pushed(press), SETTLE, DT);
+    let (p, f) = (arm.place().pad.p, arm.f_e());
+    arm.advance(&pushed([0, 1, 2].map(|i| press[i] + rub[i])), 1_000, DT);
+    (arm.f_e() - f, arm.place().pad.p - p)
+}
+
+#[test]
+fn friction_on_the_table_sticks_up_to_its_limit_and_slides_beyond() {
+    // 0.4 · 50 N = 20 N along each tangential axis, at once.
+    for (along, other) in [(0, 1), (1, 0)] {
+        let rub = |size: f64| Vector3::ith(along, size).into();
+        let (f, moved) = rubbed([0.0, 0.0, -50.0], rub(-19.0));
+        assert!((f[along] - 19.0).abs() < 1e-9, "{f}"); // the rest of settling
+        assert!(moved.amax() < 1e-12, "{moved}");
+        let (f, moved) = rubbed([0.0, 0.0, -50.0], rub(-21.0));
+        assert!((f[along] - 0.4 * (50.0 + f.z)).abs() < 1e-9, "{f}"); // at the limit of the normal force of that moment
+        assert!(
+            moved[along] < -1e-4 && moved[other].abs() < moved[along].abs(),
+            "{moved}"
+        );
+    }
+}
+
+#[test]
+fn friction_on_the_wall_sticks_up_to_its_limit_and_slides_beyond() {
+    let (f, moved) = rubbed([60.0, 0.0, 0.0], [0.0, 0.0, 23.0]); // of 24 N
+    assert!(
+        (f.z + 23.0).abs() < 1e-9 && moved.amax() < 1e-12,
+        "{f}{moved}"
+    );
+    let (f, moved) = rubbed([60.0, 0.0, 0.0], [0.0, 0.0, 26.0]);
+    assert!(
+        (f.z + 0.4 * (60.0 - f.x)).abs() < 1e-9 && moved.z > 1e-4,
+        "{f}{moved}"
+    );
+}
+
+#[test]
+fn in_the_corner_table_and_wall_rub_together() {
+    // 0.4 · 50 N and 0.4 · 60 N along y: 30 N is more than either holds, 46 N more than both. (Between, it depends on how
+    // much of the push toward the wall the table's friction bears.)
+    let (f, moved) = rubbed([60.0, 0.0, -50.0], [0.0, 30.0, 0.0]);
+    assert!(
+        (f.y + 30.0).abs() < 1e-9 && moved.amax() < 1e-12,
+        "{f}{moved}"
+    );
+    let (_, moved) = rubbed([60.0, 0.0, -50.0], [0.0, 46.0, 0.0]);
+    assert!(moved.y > 1e-4, "{moved}");
+}

@@ -1,0 +1,48 @@
+//! The impedance hand: it pulls the handle toward where it wants to be, by what it felt a reflex ago.
+
+use crate::history::{History, Sample};
+use serde::{Deserialize, Serialize};
+
+/// A hand of stiffness `k_h` and damping `b_h` with a reflex delay.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Hand {
+    k_h: f64,
+    b_h: f64,
+    p_intended: [f64; 3],
+    history: History,
+}
+
+impl Default for Hand {
+    /// A hand without force.
+    fn default() -> Self {
+        Self::new(0.0, 0.0, 0.0, [0.0; 3], Sample::default())
+    }
+}
+
+impl Hand {
+    /// A hand of `k_h` (N/m) and `b_h` (N·s/m) that wants to be at `p_intended` (m) and acts `delay` (s) late. Until
+    /// now it felt what `first` says.
+    pub fn new(k_h: f64, b_h: f64, delay: f64, p_intended: [f64; 3], first: Sample) -> Self {
+        Self {
+            k_h,
+            b_h,
+            p_intended,
+            history: History::new(delay, first),
+        }
+    }
+
+    /// Feels where the handle is now.
+    pub fn feel(&mut self, now: Sample) {
+        self.history.take(now);
+    }
+
+    /// Force on the handle (N):
+    ///
+    /// ```text
+    /// f_hand = k_h (p_intended − p(t − delay)) − b_h dp(t − delay)
+    /// ```
+    pub fn force(&self) -> [f64; 3] {
+        let Sample { p, dp, .. } = self.history.felt();
+        core::array::from_fn(|i| self.k_h * (self.p_intended[i] - p[i]) - self.b_h * dp[i])
+    }
+}

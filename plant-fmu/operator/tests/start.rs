@@ -1,0 +1,175 @@
+//! Refusals that name variable, value and what was expected; declared dependencies and names.
+
+use declaration::{Access, Causality, Declare, Variable};
+use export::{Log, Model};
+use human_operator::HumanOperator;
+use std::collections::BTreeSet;
+
+fn initialized(mut human: HumanOperator) -> Result<HumanOperator, String> {
+    human
+        .initialize(0.0, &mut Log::silent())
+        .map_err(|refusal| refusal.0)?;
+    Ok(human)
+}
+
+#[test]
+fn start_values_are_accepted_and_give_no_force() {
+    let human = initialized(HumanOperator::default()).unwrap();
+    assert_eq!(human, HumanOperator::default());
+}
+
+#[test]
+fn a_refused_parameter_is_named_with_its_value_and_what_was_expected() {
+    let refused = |change: fn(&mut HumanOperator)| {
+        let mut human = HumanOperator::default();
+        change(&mut human);
+        initialized(human).unwrap_err()
+    };
+    for (text, change) in [
+        (
+            "k_h = -1 N/m, expected a value from 0 to 1000000",
+            (|h| h.k_h = -1.0) as fn(&mut HumanOperator),
+        ),
+        ("b_h = NaN N.s/m, expected a finite value", |h| {
+            h.b_h = f64::NAN
+        }),
+        ("delay = 1.5 s, expected a value from 0 to 1", |h| {
+            h.delay = 1.5
+        }),
+        ("segment[16].axis = 4, expected a value from 1 to 3", |h| {
+            h.segment.axis[15] = 4
+        }),
+        (
+            "segment[2].kind = 3, expected an item of SegmentKind: 1 sine, 2 constant",
+            |h| h.segment.kind[1] = 3,
+        ),
+        (
+            "segment[3].ramp = -0.5 s, expected a value from 0 to 1000000000",
+            |h| h.segment.ramp[2] = -0.5,
+        ),
+        (
+            "segment[1].t_off = 2 s, expected at least segment[1].t_on = 5 s",
+            |h| (h.segment.t_on[0], h.segment.t_off[0]) = (5.0, 2.0),
+        ),
+    ] {
+        assert_eq!(refused(change), text);
+    }
+}
+
+#[test]
+fn a_second_initialization_starts_from_parameters_and_inputs_alone() {
+    let mut human = HumanOperator {
+        p: [0.4, 0.0, 0.0],
+        k_h: 100.0,
+        delay: 0.2,
+        ..HumanOperator::default()
+    };
+    human = initialized(human).unwrap();
+    human.p[0] = 0.5;
+    human.k_h = 200.0;
+    let again = initialized(human.clone()).unwrap();
+    let fresh = initialized(HumanOperator {
+        hand: HumanOperator::default().hand,
+        ..human
+    });
+    assert_eq!(again, fresh.unwrap());
+    assert_eq!(again.f_h, [0.0; 3]);
+}
+
+fn outputs(row: &Variable<HumanOperator>, human: &mut HumanOperator) -> Vec<u64> {
+    let Access::Real { at, .. } = row.access else {
+        panic!("{} is a Real", row.name)
+    };
+    at(human).iter().map(|value| value.to_bits()).collect()
+}
+
+/// Changes element `i` of a row; `false` when there is no such element.
+fn change(row: &Variable<HumanOperator>, i: usize, human: &mut HumanOperator) -> bool {
+    if i >= row.len {
+        return false;
+    }
+    match row.access {
+        Access::Real { at, .. } => at(human)[i] += 0.01,
+        Access::Integer { at, .. } | Access::Enumeration { at, .. } => {
+            at(human)[i] = 3 - at(human)[i]
+        }
+        Access::Boolean { at } => at(human)[i] = !at(human)[i],
+        Access::String { .. } => panic!("no row is a String"),
+    }
+    true
+}
+
+#[test]
+fn declared_initial_dependencies_are_the_true_ones() {
+    // Two starts at which everything that can matter does: half-way in both ramps, the hand on.
+    let mut base = HumanOperator {
+        p: [0.1, 0.2, 0.3],
+        dp: [0.1, 0.2, 0.3],
+        k_h: 10.0,
+        b_h: 1.0,
+        delay: 0.1,
+        ..HumanOperator::default()
+    };
+    for i in 0..3 {
+        base.segment.amplitude[i] = 2.0;
+        base.segment.t_on[i] = -0.2;
+        base.segment.t_off[i] = -0.1;
+        base.segment.ramp[i] = 0.5;
+        base.segment.phase[i] = 0.3;
+    }
+    let elsewhere = HumanOperator {
+        intended_from_start: false,
+        ..base.clone()
+    };
+    let rows = HumanOperator::DESCRIPTION.variables;
+    for output in rows.iter().filter(|row| row.causality == Causality::Output) {
+        let mut found = BTreeSet::new();
+        for row in rows.iter().filter(|row| row.causality != Causality::Output) {
+            for base in [&base, &elsewhere] {
+                for i in 0..3 {
+                    let mut changed = base.clone();
+                    let there = change(row, i, &mut changed);
+                    // A start away from 0, so that the frequency matters.
+                    let mut before = base.clone();
+                    before.initialize(0.03, &mut Log::silent()).unwrap();
+                    if there
+                        && changed.initialize(0.03, &mut Log::silent()).is_ok()
+                        && outputs(output, &mut before) != outputs(output, &mut changed)
+                    {
+                        found.insert(row.name);
+                    }
+                }
+            }
+        }
+        let declared: BTreeSet<_> = output.initially_from.iter().copied().collect();
+        assert_eq!(declared, found, "{}", output.name);
+    }
+}
+
+#[test]
+fn the_names_that_others_rely_on_are_there() {
+    let names: Vec<_> = HumanOperator::DESCRIPTION
+        .scalars()
+        .map(|s| s.name())
+        .collect();
+    for name in [
+        "p[1]",
+        "dp[3]",
+        "f_h[2]",
+        "k_h",
+        "b_h",
+        "delay",
+        "segment[16].axis",
+        "segment[16].kind",
+        "segment[1].t_on",
+        "segment[1].t_off",
+        "segment[1].ramp",
+        "segment[1].amplitude",
+        "segment[1].frequency",
+        "segment[1].phase",
+        "p_intended[3]",
+        "intended_from_start",
+    ] {
+        assert!(names.iter().any(|n| n == name), "{name}");
+    }
+}
