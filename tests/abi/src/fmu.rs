@@ -57,6 +57,15 @@ fn existing(path: PathBuf) -> PathBuf {
     path
 }
 
+/// The project's FMUs by name.
+const PRODUCTS: [&str; 5] = [
+    "TestbedController",
+    "Testbed",
+    "ArmController",
+    "ExoskeletonArm",
+    "HumanOperator",
+];
+
 impl Fmu {
     /// Unpacks and loads `<name>.fmu` from the [`directory`].
     ///
@@ -138,12 +147,15 @@ impl Fmu {
     }
 
     /// The test model and the project's FMUs.
-    pub fn all() -> [Self; 3] {
-        [
-            Self::lag(),
-            Self::open("TestbedController"),
-            Self::open("Testbed"),
-        ]
+    pub fn all() -> Vec<Self> {
+        let mut all = Self::products();
+        all.insert(0, Self::lag());
+        all
+    }
+
+    /// The project's FMUs.
+    pub fn products() -> Vec<Self> {
+        PRODUCTS.iter().map(|name| Self::open(name)).collect()
     }
 
     /// A variable by its name.

@@ -1,10 +1,13 @@
 //! Steps do not allocate. The models are linked into this process, because an allocator counts its own process's
 //! library only; the functions called are the generic ones behind the C symbols.
 
+use arm_controller::ArmController;
+use exoskeleton_arm::ExoskeletonArm;
 use export::ffi::{CO_SIMULATION, Callbacks, Component, Status};
 use export::functions as f;
 use export::legality::Function;
 use export::model::Model;
+use human_operator::HumanOperator;
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 use std::ffi::CString;
@@ -124,6 +127,22 @@ fn set_step_and_get_of_the_controller_allocate_nothing() {
 fn set_step_and_get_of_the_testbed_allocate_nothing() {
     let n = of_a_run::<Testbed>(["tau_a", "tau_h"], ["q", "energy.residual"]);
     assert_eq!(n, 0);
+}
+
+#[test]
+fn set_step_and_get_of_the_arms_fmus_allocate_nothing() {
+    assert_eq!(
+        of_a_run::<ArmController>(["q[1]", "f_h[3]"], ["tau_a[2]", "energy.G"]),
+        0
+    );
+    assert_eq!(
+        of_a_run::<ExoskeletonArm>(["tau_a[2]", "f_h[1]"], ["p[3]", "energy.residual"]),
+        0
+    );
+    assert_eq!(
+        of_a_run::<HumanOperator>(["p[1]", "dp[1]"], ["f_h[1]", "f_h[3]"]),
+        0
+    );
 }
 
 #[test]

@@ -239,7 +239,7 @@ fn a_resource_location_that_is_not_understood_is_a_warning_and_the_instance_work
 
 #[test]
 fn the_fmus_work_with_the_folder_they_were_unpacked_into() {
-    for fmu in [Fmu::open("TestbedController"), Fmu::open("Testbed")] {
+    for fmu in Fmu::products() {
         let folder = fmu
             .folder
             .as_ref()
