@@ -29,7 +29,7 @@ use std::process::ExitCode;
 
 /// Passivity-based admittance control as FMUs: build, test, reproduce.
 #[derive(Parser)]
-#[command(name = "cargo xtask")]
+#[command(name = "cargo xtask", bin_name = "cargo xtask")]
 struct Arguments {
     #[command(subcommand)]
     command: Command,

@@ -3,7 +3,7 @@
 
 use crate::catalogue::FMUS;
 use crate::process::{Failure, Outcome, answer, cargo, program, root, run};
-use crate::venv::{Venv, check_machine, is_configured};
+use crate::venv::{Venv, check_machine};
 use std::process::Command;
 use std::time::{Duration, Instant};
 
@@ -129,17 +129,24 @@ pub fn test(keep_going: bool) -> Outcome {
             run(&mut venv.command(["-m", "ruff", "check", "harness", "tests/system"]))?;
             run(&mut venv.command(["-m", "ruff", "format", "--check", "harness", "tests/system"]))
         });
-        if is_configured("[tool.mypy]") {
-            stages.stage("mypy", || {
-                run(in_harness(&mut venv.command(["-m", "mypy"])))
-            });
-        }
+        stages.stage("mypy", || {
+            run(in_harness(&mut venv.command(["-m", "mypy"])))
+        });
         stages.stage("exo validate", || {
             run(venv
                 .exo(["validate"])
                 .args(FMUS.map(|fmu| format!("target/fmu/{}.fmu", fmu.name))))
         });
         stages.stage("pytest", || {
+            // The same loop in native Rust, for the comparison with fmpy.
+            run(&mut cargo([
+                "build",
+                "--locked",
+                "--package",
+                "abi",
+                "--bin",
+                "native_loop",
+            ]))?;
             run(&mut venv.command(["-m", "pytest", "tests/system"]))
         });
     }
@@ -152,11 +159,17 @@ pub fn reproduce() -> Outcome {
     let mut stages = Stages::new(false);
     let venv = stages.stage("venv", Venv::ready);
     stages.stage("fmu", || crate::fmu::build_all(false));
-    if let Some(venv) = venv {
-        stages.stage("exo reproduce", || run(&mut venv.exo(["reproduce"])));
-    }
     let report = root().join("results/report.html");
-    let written = report.exists();
+    let mut written = false;
+    if let Some(venv) = venv {
+        stages.stage("exo reproduce", || {
+            // A failed verdict is an error, yet leaves its report; an old report is not this run's.
+            let _ = std::fs::remove_file(&report);
+            let outcome = run(&mut venv.exo(["reproduce"]));
+            written = report.exists();
+            outcome
+        });
+    }
     let outcome = stages.finish();
     if written {
         println!("\nreport: {}", report.display());
@@ -176,6 +189,9 @@ pub fn bench() -> Outcome {
     if let Some(venv) = venv {
         stages.stage("exo benchmark", || {
             run(&mut venv.command(["-m", "exo.benchmark"]))
+        });
+        stages.stage("arm benchmark", || {
+            run(&mut venv.command(["tests/system/oracles/benchmark.py"]))
         });
     }
     stages.finish()

@@ -145,12 +145,6 @@ fn clean(mut command: Command) -> Command {
     command
 }
 
-/// Whether a section stands in the harness's `pyproject.toml`.
-pub fn is_configured(section: &str) -> bool {
-    let path = root().join("harness/pyproject.toml");
-    std::fs::read_to_string(path).is_ok_and(|text| text.lines().any(|line| line.trim() == section))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

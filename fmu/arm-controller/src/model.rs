@@ -167,6 +167,10 @@ impl Model for ArmController {
             .map_err(refusal)
     }
 
+    fn accepts(&self, step: &Step) -> Result<(), Refusal> {
+        step.at_most("T", self.T)
+    }
+
     fn step(&mut self, step: Step, _log: &mut Log<'_>) -> Result<(), Refusal> {
         let mut task_space = self
             .task_space

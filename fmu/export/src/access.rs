@@ -1,7 +1,7 @@
 //! Get and Set by value reference: checked against the rows first, written afterwards.
 
+use crate::failure::{Failure, Outcome};
 use crate::ffi::ValueReference;
-use crate::guard::{Failure, Outcome};
 use crate::instance::{Instance, refused};
 use crate::legality::Phase;
 use crate::model::{Model, Refusal};

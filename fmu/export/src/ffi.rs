@@ -97,12 +97,18 @@ impl Callbacks {
     }
 }
 
-/// An importer's array of `n` elements; `None` when the pointer is null although `n > 0`.
+/// Whether no array of `n` elements can exist.
+fn exceeds_memory<T>(n: usize) -> bool {
+    n > isize::MAX as usize / size_of::<T>().max(1)
+}
+
+/// An importer's array of `n` elements; `None` when the pointer is null although `n > 0`, or when no
+/// array can have `n` elements.
 ///
 /// # Safety
 /// Unless null, `pointer` is valid for reading `n` elements during `'a` (the contract of every FMI array argument).
 pub(crate) unsafe fn array<'a, T>(pointer: *const T, n: usize) -> Option<&'a [T]> {
-    match (pointer.is_null(), n) {
+    match (pointer.is_null() || exceeds_memory::<T>(n), n) {
         (_, 0) => Some(&[]),
         (true, _) => None,
         // SAFETY: not null, and valid for n elements by this function's contract.
@@ -115,7 +121,7 @@ pub(crate) unsafe fn array<'a, T>(pointer: *const T, n: usize) -> Option<&'a [T]
 /// # Safety
 /// Unless null, `pointer` is valid for writing `n` elements during `'a`, and nothing else refers to them.
 pub(crate) unsafe fn array_mut<'a, T>(pointer: *mut T, n: usize) -> Option<&'a mut [T]> {
-    match (pointer.is_null(), n) {
+    match (pointer.is_null() || exceeds_memory::<T>(n), n) {
         (_, 0) => Some(&mut []),
         (true, _) => None,
         // SAFETY: not null, and valid for n elements by this function's contract.

@@ -1,5 +1,6 @@
 //! The one guard around every call: null, phase, panic, log, status.
 
+use crate::failure::{Failure, Outcome};
 use crate::ffi::{Component, Status};
 use crate::instance::Instance;
 use crate::legality::{Function, Phase};
@@ -8,24 +9,6 @@ use std::cell::RefCell;
 use std::fmt::Write as _;
 use std::panic::{AssertUnwindSafe, PanicHookInfo, catch_unwind};
 use std::sync::Once;
-
-/// Why a call did not do what was asked.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Failure {
-    /// Refused: nothing has changed, the phase stays.
-    Refused(String),
-    /// The model failed in the middle of a change: the instance enters the error phase.
-    Broken(String),
-}
-
-impl From<String> for Failure {
-    fn from(reason: String) -> Self {
-        Self::Refused(reason)
-    }
-}
-
-/// Shorthand for the result of an instance's method.
-pub type Outcome = Result<(), Failure>;
 
 /// Runs `call` on the instance behind `component`, if that is legal now, with everything that can go wrong turned into
 /// a logged `fmi2Error`.

@@ -25,12 +25,12 @@ fn new<M: Model>(snapshot: Snapshot<M>) -> FmuState {
 ///
 /// # Safety
 /// The library exports one model only, `M`; no other thread frees or overwrites the state meanwhile.
-pub(crate) unsafe fn get<'a, M: Model>(state: FmuState) -> Option<&'a mut Snapshot<M>> {
+pub(crate) unsafe fn get<'a, M: Model>(state: FmuState) -> Option<&'a Snapshot<M>> {
     if !live().contains(&(state as usize)) {
         return None;
     }
     // SAFETY: a live address came from `new::<M>` and was not freed since.
-    unsafe { state.cast::<Snapshot<M>>().as_mut() }
+    unsafe { state.cast::<Snapshot<M>>().as_ref() }
 }
 
 /// Stores a snapshot where the importer's pointer points: into the state that stands there, or as a new one.
@@ -38,10 +38,11 @@ pub(crate) unsafe fn get<'a, M: Model>(state: FmuState) -> Option<&'a mut Snapsh
 /// # Safety
 /// As for [`get`].
 pub(crate) unsafe fn put<M: Model>(slot: &mut FmuState, snapshot: Snapshot<M>) {
-    // SAFETY: passed on to the caller.
-    match unsafe { get::<M>(*slot) } {
-        Some(old) => *old = snapshot,
-        None => *slot = new(snapshot),
+    if live().contains(&(*slot as usize)) {
+        // SAFETY: a live address came from `new::<M>` and was not freed since; the caller lets no other thread use it.
+        unsafe { *slot.cast::<Snapshot<M>>() = snapshot };
+    } else {
+        *slot = new(snapshot);
     }
 }
 
@@ -50,7 +51,14 @@ pub(crate) unsafe fn put<M: Model>(slot: &mut FmuState, snapshot: Snapshot<M>) {
 /// # Safety
 /// As for [`get`].
 pub(crate) unsafe fn free<M: Model>(state: FmuState) -> bool {
-    let known = live().remove(&(state as usize));
+    let known = {
+        let mut live = live();
+        let known = live.remove(&(state as usize));
+        if live.is_empty() {
+            *live = BTreeSet::new(); // an emptied tree keeps a node, which would be lost when the library is unloaded
+        }
+        known
+    };
     if known {
         // SAFETY: the address was live, so it came from `Box::into_raw` in `new::<M>`; it was removed just now, so this
         // happens once.

@@ -1,7 +1,7 @@
 //! One instance of a model: life cycle, steps, FMU state. Access to variables is in [`crate::access`].
 
+use crate::failure::{Failure, Outcome};
 use crate::ffi::{Callbacks, LAST_SUCCESSFUL_TIME, StatusKind, TERMINATED};
-use crate::guard::{Failure, Outcome};
 use crate::legality::Phase;
 use crate::log::{self, Category, Enabled, Log};
 use crate::model::Model;
@@ -86,8 +86,12 @@ impl<M: Model> Instance<M> {
     }
 
     /// fmi2SetDebugLogging
-    pub(crate) fn set_debug_logging(&mut self, on: bool, categories: &[Option<&str>]) -> Outcome {
-        let mut enabled = if categories.is_empty() {
+    pub(crate) fn set_debug_logging<'a>(
+        &mut self,
+        on: bool,
+        categories: impl ExactSizeIterator<Item = Option<&'a str>>,
+    ) -> Outcome {
+        let mut enabled = if categories.len() == 0 {
             Enabled::all(on)
         } else {
             self.enabled
@@ -96,7 +100,7 @@ impl<M: Model> Instance<M> {
             let known = |c: &&Category| Some(c.name().0) == name.and_then(c_name).as_deref();
             match Category::LIST.iter().find(known) {
                 Some(&category) => enabled.set(category, on),
-                None if *name == log::ALL.to_str().ok() => enabled = Enabled::all(on),
+                None if name == log::ALL.to_str().ok() => enabled = Enabled::all(on),
                 None => {
                     let expected = Category::LIST
                         .map(|c| c.name().0.to_string_lossy().into_owned())
@@ -222,6 +226,7 @@ impl<M: Model> Instance<M> {
             t,
             h,
         };
+        self.now.model.accepts(&step).map_err(|refusal| refusal.0)?;
         let (model, mut log) = self.model_and_log();
         model
             .step(step, &mut log)

@@ -22,6 +22,7 @@
 //! | [`log`] | messages by category | 2.1.5 |
 //! | [`ffi`] | C types and callbacks | 2.1.2, 2.1.5 |
 //! | [`legality`] | which call is legal in which phase, as one table | 4.2.4 |
+//! | [`failure`] | refused or broken: what a call may come back with | 2.1.3 |
 //! | [`guard`] | null, phase, panic, log, status | 2.1.3 |
 //! | [`instance`] | one instance: life cycle, variables, steps | 2.1.6, 2.1.7, 4.2.2 |
 //! | [`access`] | Get and Set by value reference | 2.1.7 |
@@ -30,6 +31,7 @@
 //! | [`functions`] | the C functions, generic over the model | 2.1, 4.2 |
 
 pub mod access;
+pub mod failure;
 pub mod ffi;
 pub mod functions;
 pub mod guard;

@@ -40,6 +40,15 @@ pub trait Model: Declare + Clone + Serialize + DeserializeOwned {
         Ok(())
     }
 
+    /// Whether the model can make `step` at all, asked before anything changes. See [`Step::at_most`].
+    ///
+    /// # Errors
+    /// A [`Refusal`]; the instance stays as it was.
+    fn accepts(&self, step: &Step) -> Result<(), Refusal> {
+        let _ = step;
+        Ok(())
+    }
+
     /// Advances over `step`. Must not allocate.
     ///
     /// # Errors

@@ -5,10 +5,12 @@
 //! | 0 | 8 | magic `FMI2STAT` |
 //! | 8 | 4 | version of this format, little-endian |
 //! | 12 | 38 | guid of the FMU, ASCII |
-//! | 50 | 8 | length of the payload, little-endian |
-//! | 58 | 4 | CRC-32 of the payload, little-endian |
-//! | 62 | … | payload: phase, times and the model, by serde and postcard (floats bit for bit) |
+//! | 50 | 4 | CRC-32 of the model's start state as bytes: changes with the layout of the state |
+//! | 54 | 8 | length of the payload, little-endian |
+//! | 62 | 4 | CRC-32 of the payload, little-endian |
+//! | 66 | … | payload: phase, times and the model, by serde and postcard (floats bit for bit) |
 
+use crate::access::check_parameters;
 use crate::legality::Phase;
 use crate::model::Model;
 use serde::{Deserialize, Serialize};
@@ -16,7 +18,10 @@ use serde::{Deserialize, Serialize};
 const MAGIC: &[u8; 8] = b"FMI2STAT";
 const VERSION: u32 = 1;
 const GUID: std::ops::Range<usize> = 12..50;
-const HEADER: usize = 62;
+const LAYOUT: usize = 50;
+const LENGTH: usize = 54;
+const CHECKSUM: usize = 62;
+const HEADER: usize = 66;
 
 /// Everything of an instance that a run depends on.
 #[derive(Clone, Serialize, Deserialize)]
@@ -44,6 +49,7 @@ impl<M: Model> Snapshot<M> {
         bytes.extend_from_slice(MAGIC);
         bytes.extend_from_slice(&VERSION.to_le_bytes());
         bytes.extend_from_slice(M::DESCRIPTION.guid().as_bytes());
+        bytes.extend_from_slice(&layout::<M>()?.to_le_bytes());
         bytes.extend_from_slice(&(payload.len() as u64).to_le_bytes());
         bytes.extend_from_slice(&crc32fast::hash(&payload).to_le_bytes());
         debug_assert_eq!(bytes.len(), HEADER);
@@ -79,7 +85,13 @@ impl<M: Model> Snapshot<M> {
                 "serialized state: expected guid {own}, got {guid} (another FMU or version)"
             ));
         }
-        let length = u64::from_le_bytes(word(bytes, 50));
+        if u32::from_le_bytes(word(bytes, LAYOUT)) != layout::<M>()? {
+            return Err(
+                "serialized state: from another version of this FMU, with other internal states"
+                    .into(),
+            );
+        }
+        let length = u64::from_le_bytes(word(bytes, LENGTH));
         let rest = &bytes[HEADER..];
         let Some(payload) = usize::try_from(length).ok().and_then(|n| rest.get(..n)) else {
             return Err(format!(
@@ -88,7 +100,7 @@ impl<M: Model> Snapshot<M> {
             ));
         };
         let (expected, got) = (
-            u32::from_le_bytes(word(bytes, 58)),
+            u32::from_le_bytes(word(bytes, CHECKSUM)),
             crc32fast::hash(payload),
         );
         if expected != got {
@@ -96,8 +108,8 @@ impl<M: Model> Snapshot<M> {
                 "serialized state: damaged, expected checksum {expected:08x}, got {got:08x}"
             ));
         }
-        match postcard::take_from_bytes(payload) {
-            Ok((snapshot, [])) => Ok(snapshot),
+        match postcard::take_from_bytes::<Self>(payload) {
+            Ok((snapshot, [])) => snapshot.checked(),
             Ok((_, rest)) => Err(format!(
                 "serialized state: {} bytes too many for this model",
                 rest.len()
@@ -105,6 +117,23 @@ impl<M: Model> Snapshot<M> {
             Err(e) => Err(format!("serialized state: not a state of this model: {e}")),
         }
     }
+
+    /// With times and parameters as Set would accept them: bytes with a right checksum may still be forged.
+    fn checked(mut self) -> Result<Self, String> {
+        if !(self.start_time.is_finite() && self.time.is_finite()) {
+            return Err("serialized state: a time that is not finite".into());
+        }
+        check_parameters(&mut self.model)
+            .map_err(|refusal| format!("serialized state: {refusal}"))?;
+        Ok(self)
+    }
+}
+
+/// Tells layouts of the state apart that the interface, and so the guid, does not.
+fn layout<M: Model>() -> Result<u32, String> {
+    postcard::to_allocvec(&M::default())
+        .map(|bytes| crc32fast::hash(&bytes))
+        .map_err(|e| format!("the model cannot be serialized: {e}"))
 }
 
 /// `N` bytes at `offset` of a slice that is long enough.

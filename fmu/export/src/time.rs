@@ -1,5 +1,6 @@
 //! Communication steps and the ticks of a sampled model inside them.
 
+use crate::Refusal;
 use serde::{Deserialize, Serialize};
 
 /// Share of the sample period within which a step's end and a tick count as the same instant: far above what an
@@ -17,7 +18,26 @@ pub struct Step {
     pub h: f64,
 }
 
+/// Most periods that one step may take: more would seem to hang (1e8 substeps take from seconds to minutes).
+const MOST_PERIODS: f64 = 1e8;
+
 impl Step {
+    /// Refuses a step of more than 1e8 periods, where `period` (s) is what the model calls `name`: a sample period, a
+    /// substep.
+    ///
+    /// # Errors
+    /// A [`Refusal`] with the step size and the longest one.
+    pub fn at_most(&self, name: &str, period: f64) -> Result<(), Refusal> {
+        let longest = MOST_PERIODS * period;
+        if self.h <= longest {
+            return Ok(());
+        }
+        let h = self.h;
+        Err(Refusal(format!(
+            "communicationStepSize = {h:?} s, expected at most {longest:?} s (1e8 times {name})"
+        )))
+    }
+
     /// Splits the step into equal substeps no longer than `longest` (s): their number and their length (s). The last
     /// one ends exactly at `t + h`; no time is accumulated.
     pub fn substeps(&self, longest: f64) -> (u32, f64) {

@@ -121,6 +121,10 @@ impl Model for TestbedController {
             .map_err(refusal)
     }
 
+    fn accepts(&self, step: &Step) -> Result<(), Refusal> {
+        step.at_most("T", self.T)
+    }
+
     fn step(&mut self, step: Step, _log: &mut Log<'_>) -> Result<(), Refusal> {
         let mut admittance = self
             .admittance

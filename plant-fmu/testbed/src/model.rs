@@ -19,14 +19,12 @@ impl Model for Testbed {
         Ok(())
     }
 
+    fn accepts(&self, step: &Step) -> Result<(), Refusal> {
+        step.at_most("substep", self.substep)
+    }
+
     fn step(&mut self, step: Step, _log: &mut Log<'_>) -> Result<(), Refusal> {
         let (n, dt) = step.substeps(self.substep);
-        if n == u32::MAX {
-            return Err(Refusal(format!(
-                "step size {:?} s: expected less than {n} substeps of {:?} s",
-                step.h, self.substep
-            )));
-        }
         let (tau_a, tau_h, tau_d) = (self.tau_a, self.tau_h, self.tau_d);
         let forces = Forces {
             tau_a,

@@ -51,6 +51,22 @@ fn the_smallest_steps_are_steps() {
 }
 
 #[test]
+fn a_step_of_too_many_periods_is_refused_before_anything_moves() {
+    for (name, period) in [
+        ("TestbedController", "T"),
+        ("Testbed", "substep"),
+        ("ArmController", "T"),
+        ("ExoskeletonArm", "substep"),
+    ] {
+        let instance = Phase::StepComplete.enter(&Fmu::open(name));
+        refused(&instance, "fmi2DoStep", &["at most", period], |i| {
+            i.step(0.0, 1e300)
+        });
+        assert_eq!(instance.step(0.0, 0.01), Status::OK);
+    }
+}
+
+#[test]
 fn time_never_becomes_infinite() {
     // The test model, because a sampled model would run 1e311 ticks.
     let fmu = Fmu::lag();

@@ -79,11 +79,8 @@ pub unsafe fn set_debug_logging<M: Model>(
     // SAFETY: the importer's contract.
     unsafe {
         guard::<M>(c, F::fmi2SetDebugLogging, |instance| {
-            let names: Vec<_> = known(array(names, n), "categories")?
-                .iter()
-                .map(|&name| string(name))
-                .collect();
-            instance.set_debug_logging(on != 0, &names)
+            let names = known(array(names, n), "categories")?;
+            instance.set_debug_logging(on != 0, names.iter().map(|&name| string(name)))
         })
     }
 }

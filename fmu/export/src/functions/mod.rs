@@ -19,7 +19,7 @@ pub use states::*;
 pub use status::*;
 pub use variables::*;
 
-use crate::guard::Failure;
+use crate::failure::Failure;
 use crate::instance::refused;
 
 /// An argument that must be there.

@@ -90,7 +90,7 @@ pub unsafe fn get_string<M: Model>(
         guard::<M>(c, F::fmi2GetString, |instance| {
             let references = known(array(references, n), "vr")?;
             let values = known(array_mut(values, n), "value")?;
-            let mut strings = Vec::with_capacity(n);
+            let mut strings = Vec::new(); // not n: the references are checked one by one
             instance.get::<String>(references, |_, text| {
                 strings.push(CString::new(text.replace('\0', "")).unwrap_or_default());
             })?;
