@@ -15,7 +15,7 @@ pub struct Fmu {
 }
 
 /// All FMUs.
-pub const FMUS: [Fmu; 5] = [
+pub const FMUS: [Fmu; 6] = [
     Fmu {
         name: "TestbedController",
         package: "testbed-controller",
@@ -35,6 +35,11 @@ pub const FMUS: [Fmu; 5] = [
         name: "ExoskeletonArm",
         package: "exoskeleton-arm",
         read: Interface::of::<exoskeleton_arm::ExoskeletonArm>,
+    },
+    Fmu {
+        name: "ExoskeletonArms",
+        package: "exoskeleton-arms",
+        read: Interface::of::<exoskeleton_arms::ExoskeletonArms>,
     },
     Fmu {
         name: "HumanOperator",

@@ -57,6 +57,7 @@ pub mod force_sensor;
 pub mod model;
 pub mod noise;
 pub mod parameters;
+mod table;
 pub mod variables;
 
 use encoder::Encoder;

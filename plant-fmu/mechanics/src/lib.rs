@@ -41,6 +41,7 @@
 //! | [`friction`] | Coulomb and viscous friction, reusable on any axis |
 //! | [`wall`] | unilateral Kelvin–Voigt contact with its own surface, reusable along any normal |
 //! | [`arm`] | the powered upper limb: a geared 3-DoF arm with payload, table and wall; see its page |
+//! | [`pair`] | two such arms that share one payload rigidly |
 //! | [`testbed`] | the 1-DoF plant: parameters, state, start, run |
 //! | [`substep`] | its implicit equation, solved in closed form |
 //! | [`energy`] | works, losses and stores, each by its own formula |
@@ -58,6 +59,7 @@
 pub mod arm;
 pub mod energy;
 pub mod friction;
+pub mod pair;
 pub mod parameter;
 pub mod substep;
 pub mod sum;

@@ -58,12 +58,13 @@ fn existing(path: PathBuf) -> PathBuf {
 }
 
 /// The project's FMUs by name.
-const PRODUCTS: [&str; 5] = [
+const PRODUCTS: [&str; 6] = [
     "TestbedController",
     "Testbed",
     "ArmController",
     "ExoskeletonArm",
     "HumanOperator",
+    "ExoskeletonArms",
 ];
 
 impl Fmu {

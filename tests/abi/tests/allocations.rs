@@ -3,6 +3,7 @@
 
 use arm_controller::ArmController;
 use exoskeleton_arm::ExoskeletonArm;
+use exoskeleton_arms::ExoskeletonArms;
 use export::ffi::{CO_SIMULATION, Callbacks, Component, Status};
 use export::functions as f;
 use export::legality::Function;
@@ -137,6 +138,13 @@ fn set_step_and_get_of_the_arms_fmus_allocate_nothing() {
     );
     assert_eq!(
         of_a_run::<ExoskeletonArm>(["tau_a[2]", "f_h[1]"], ["p[3]", "energy.residual"]),
+        0
+    );
+    assert_eq!(
+        of_a_run::<ExoskeletonArms>(
+            ["left.tau_a[2]", "right.f_h[1]"],
+            ["gap", "energy.residual"]
+        ),
         0
     );
     assert_eq!(

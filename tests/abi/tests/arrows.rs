@@ -26,11 +26,12 @@ fn dependencies(package: &str, direct: bool) -> Vec<String> {
     names
 }
 
-const OURS: [&str; 11] = [
+const OURS: [&str; 12] = [
     "admittance",
     "arm-controller",
     "declaration",
     "exoskeleton-arm",
+    "exoskeleton-arms",
     "export",
     "human-operator",
     "mechanics",
@@ -96,6 +97,7 @@ fn each_fmu_depends_on_its_own_side_only() {
         ("testbed", "mechanics", "admittance"),
         ("arm-controller", "admittance", "mechanics"),
         ("exoskeleton-arm", "mechanics", "admittance"),
+        ("exoskeleton-arms", "mechanics", "admittance"),
     ] {
         let all = dependencies(package, false);
         assert!(all.iter().any(|n| n == own), "{package}: {all:?}");

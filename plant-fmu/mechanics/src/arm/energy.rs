@@ -1,6 +1,8 @@
 //! The energy balance: what is stored, and the sums of what crossed the boundaries.
 
 use super::flow::Flow;
+use super::parameters::Parameters;
+use super::state::{Place, State};
 use crate::Sum;
 
 /// Energy balance since the start (J).
@@ -51,6 +53,17 @@ pub(crate) struct Stored {
 }
 
 impl Stored {
+    /// In an arm in `state`, at `place`.
+    pub(crate) fn of(parameters: &Parameters, state: &State, place: &Place) -> Self {
+        let body = parameters.body(&place.pose, state.attached);
+        let surfaces = parameters.surfaces();
+        Self {
+            kinetic: body.kinetic(&state.dq),
+            potential: body.potential,
+            surface: surfaces[0].wall().energy(state.s[0]) + surfaces[1].wall().energy(state.s[1]),
+        }
+    }
+
     fn total(&self) -> f64 {
         self.kinetic + self.potential + self.surface
     }

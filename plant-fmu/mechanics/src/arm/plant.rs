@@ -146,15 +146,6 @@ impl Arm {
     }
 
     fn stored(&self) -> Stored {
-        let body = self
-            .parameters
-            .body(&self.place().pose, self.state.attached);
-        let surfaces = self.parameters.surfaces();
-        Stored {
-            kinetic: body.kinetic(&self.state.dq),
-            potential: body.potential,
-            surface: surfaces[0].wall().energy(self.state.s[0])
-                + surfaces[1].wall().energy(self.state.s[1]),
-        }
+        Stored::of(&self.parameters, &self.state, &self.place())
     }
 }

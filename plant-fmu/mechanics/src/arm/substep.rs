@@ -9,7 +9,7 @@ use super::guess::Guess;
 use super::kinematics::Pose;
 use super::parameters::Parameters;
 use super::payload::{self, Event};
-use super::problem::{Contact, FACINGS, Joint, Problem};
+use super::problem::{Contact, FACINGS, Joint, Problem, Solution};
 use super::rigid_body::RigidBody;
 use super::solver;
 use super::state::{Inputs, Place, Shown, State};
@@ -77,6 +77,143 @@ pub fn problem(
     }
 }
 
+/// A substep whose equation is put together, but not solved: from where it starts, and what acts.
+pub(crate) struct Posed<'a> {
+    pub(crate) parameters: &'a Parameters,
+    pub(crate) state: &'a State,
+    pub(crate) place: &'a Place,
+    pub(crate) inputs: &'a Inputs,
+    /// Torques at the joints (N·m).
+    pub(crate) tau: Vector3<f64>,
+    pub(crate) body: RigidBody,
+    pub(crate) problem: Problem,
+    pub(crate) dt: f64,
+}
+
+/// Where a substep arrives, what it showed and what it moved; the payload is still as before.
+pub(crate) struct Arrived {
+    pub(crate) state: State,
+    pub(crate) place: Place,
+    pub(crate) shown: Shown,
+    pub(crate) flow: Flow,
+    /// Force of the table along its normal (N).
+    pub(crate) pressure: f64,
+}
+
+impl<'a> Posed<'a> {
+    #[inline]
+    pub(crate) fn at(
+        parameters: &'a Parameters,
+        drive: &Drive,
+        state: &'a State,
+        place: &'a Place,
+        inputs: &'a Inputs,
+        dt: f64,
+    ) -> Self {
+        let tau = drive.step(&state.tau, &Vector3::from(inputs.tau_a));
+        let body = parameters.body(&place.pose, state.attached);
+        let problem = problem(parameters, state, place, &body, &tau, inputs, dt);
+        Self {
+            parameters,
+            state,
+            place,
+            inputs,
+            tau,
+            body,
+            problem,
+            dt,
+        }
+    }
+
+    /// What the `solution` does.
+    #[inline]
+    pub(crate) fn take(&self, solution: &Solution) -> Arrived {
+        let Self {
+            parameters,
+            state,
+            place,
+            inputs,
+            ref tau,
+            ref body,
+            ref problem,
+            dt,
+        } = *self;
+        let mut next = State {
+            q: state.q + solution.v * dt,
+            dq: solution.v.map(floored),
+            tau: *tau,
+            ..*state
+        };
+        for (q, stops) in next.q.iter_mut().zip(&parameters.stops) {
+            *q = q.max(stops.min).min(stops.max); // not beyond a stop, not by rounding either
+        }
+        let there = Place::at(parameters, &next.q);
+        for (k, surface) in parameters.surfaces().iter().enumerate() {
+            let penetration = surface.penetration(FACINGS[k], there.pad.p[FACINGS[k].axis()]);
+            next.s[k] = penetration.max(surface.wall().relaxed(state.s[k], dt));
+        }
+
+        let friction = Vector3::from_fn(|i, _| problem.joints[i].friction(solution.joint[i]));
+        let flow = Taken {
+            parameters,
+            body,
+            solution,
+            friction: &friction,
+            before: (state, place),
+            after: (&next, &there),
+            dt,
+        }
+        .flow(inputs);
+        let mut shown = Shown {
+            f_e: problem.on_pad(&solution.normal, &solution.tangent) / dt,
+            tau_f: friction / dt - next.dq.component_mul(&parameters.viscous()),
+            tension: 0.0,
+            contact: solution.normal[0] > 0.0 || solution.normal[1] > 0.0,
+            path: solution.path,
+        };
+        if state.attached {
+            let a = (there.pad.J * next.dq - place.pad.J * state.dq) / dt;
+            let (m, gravity) = (parameters.payload_m, &parameters.masses.gravity);
+            shown.tension = payload::tension(m, &a, gravity, &shown.f_e);
+        }
+        Arrived {
+            state: next,
+            place: there,
+            shown,
+            flow,
+            pressure: solution.normal[0] / dt,
+        }
+    }
+}
+
+impl Arrived {
+    /// The payload is gripped, released or lost.
+    #[inline]
+    pub(crate) fn exchange(&mut self, parameters: &Parameters, event: Event) {
+        if event == Event::Stays || parameters.payload_m == 0.0 {
+            return;
+        }
+        let Self {
+            state, place, flow, ..
+        } = self;
+        let m = parameters.payload_m;
+        let potential = -m * Vector3::from(parameters.masses.gravity).dot(&place.pad.p);
+        let without = parameters.body(&place.pose, false);
+        if event == Event::Attaches {
+            let with = parameters.body(&place.pose, true);
+            let v = payload::gripped(&without, &with, &state.dq);
+            flow.payload = potential;
+            flow.loss_grip =
+                without.kinetic(&(state.dq - v)) + 0.5 * m * (place.pad.J * v).norm_squared();
+            state.dq = v;
+            state.attached = true;
+        } else {
+            flow.payload = -(potential + 0.5 * m * (place.pad.J * state.dq).norm_squared());
+            state.attached = false;
+        }
+    }
+}
+
 /// Advances `state` by `dt` (s) with `inputs` held. `place` is the arm at `state.q`, and afterwards at the new one; `guess`
 /// carries the solver's guess on.
 pub fn substep(
@@ -88,92 +225,15 @@ pub fn substep(
     inputs: &Inputs,
     dt: f64,
 ) -> (Shown, Flow) {
-    let tau = drive.step(&state.tau, &Vector3::from(inputs.tau_a));
-    let body = parameters.body(&place.pose, state.attached);
-    let problem = problem(parameters, state, place, &body, &tau, inputs, dt);
-    let solution = solver::solve(&problem, guess);
-
-    let mut next = State {
-        q: state.q + solution.v * dt,
-        dq: solution.v.map(floored),
-        tau,
-        ..*state
-    };
-    for (q, stops) in next.q.iter_mut().zip(&parameters.stops) {
-        *q = q.max(stops.min).min(stops.max); // not beyond a stop, not by rounding either
-    }
-    let there = Place::at(parameters, &next.q);
-    for (k, surface) in parameters.surfaces().iter().enumerate() {
-        let penetration = surface.penetration(FACINGS[k], there.pad.p[FACINGS[k].axis()]);
-        next.s[k] = penetration.max(surface.wall().relaxed(state.s[k], dt));
-    }
-
-    let friction = Vector3::from_fn(|i, _| problem.joints[i].friction(solution.joint[i]));
-    let mut flow = Taken {
-        parameters,
-        body: &body,
-        solution: &solution,
-        friction: &friction,
-        before: (state, place),
-        after: (&next, &there),
-        dt,
-    }
-    .flow(inputs);
-    let mut shown = Shown {
-        f_e: problem.on_pad(&solution.normal, &solution.tangent) / dt,
-        tau_f: friction / dt - next.dq.component_mul(&parameters.viscous()),
-        tension: 0.0,
-        contact: solution.normal[0] > 0.0 || solution.normal[1] > 0.0,
-        path: solution.path,
-    };
-    if state.attached {
-        let a = (there.pad.J * next.dq - place.pad.J * state.dq) / dt;
-        let (m, gravity) = (parameters.payload_m, &parameters.masses.gravity);
-        shown.tension = payload::tension(m, &a, gravity, &shown.f_e);
-    }
-    (*state, *place) = (next, there);
-    let pressure = solution.normal[0] / dt;
-    take_or_leave(
-        parameters,
-        state,
-        place,
+    let posed = Posed::at(parameters, drive, state, place, inputs, dt);
+    let mut arrived = posed.take(&solver::solve(&posed.problem, guess));
+    let event = parameters.vacuum.event(
+        state.attached,
         inputs.vacuum,
-        shown.tension,
-        pressure,
-        &mut flow,
+        arrived.shown.tension,
+        arrived.pressure,
     );
-    (shown, flow)
-}
-
-/// Grips, releases or loses the payload at the end of a substep.
-fn take_or_leave(
-    parameters: &Parameters,
-    state: &mut State,
-    place: &Place,
-    vacuum: bool,
-    tension: f64,
-    pressure: f64,
-    flow: &mut Flow,
-) {
-    let event = parameters
-        .vacuum
-        .event(state.attached, vacuum, tension, pressure);
-    if event == Event::Stays || parameters.payload_m == 0.0 {
-        return;
-    }
-    let m = parameters.payload_m;
-    let potential = -m * Vector3::from(parameters.masses.gravity).dot(&place.pad.p);
-    let without = parameters.body(&place.pose, false);
-    if event == Event::Attaches {
-        let with = parameters.body(&place.pose, true);
-        let v = payload::gripped(&without, &with, &state.dq);
-        flow.payload = potential;
-        flow.loss_grip =
-            without.kinetic(&(state.dq - v)) + 0.5 * m * (place.pad.J * v).norm_squared();
-        state.dq = v;
-        state.attached = true;
-    } else {
-        flow.payload = -(potential + 0.5 * m * (place.pad.J * state.dq).norm_squared());
-        state.attached = false;
-    }
+    arrived.exchange(parameters, event);
+    (*state, *place) = (arrived.state, arrived.place);
+    (arrived.shown, arrived.flow)
 }

@@ -1,0 +1,7 @@
+//! The C interface of the two arms, a shared library for importers.
+#![allow(
+    non_snake_case,
+    reason = "the library is named like the model, as the FMI standard asks"
+)]
+
+export::fmi2!(exoskeleton_arms::ExoskeletonArms);

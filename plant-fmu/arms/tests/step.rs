@@ -1,0 +1,136 @@
+//! Steps: the physics arrives at the right ports, the state is whole, and events are said.
+
+mod arms;
+
+use arms::{run, started};
+use exoskeleton_arm::ExoskeletonArm;
+use exoskeleton_arms::ExoskeletonArms;
+use export::{Log, Model, Step};
+
+/// 20 kg on both pads, the left arm lifting more than the right one.
+fn lifting() -> ExoskeletonArms {
+    let mut arms = started(|arms| {
+        arms.parameters.payload_m = 20.0;
+        arms.parameters.payload_attached = true;
+    });
+    arms.left.tau_a = [20.0, 160.0, 100.0];
+    arms.right.tau_a = [0.0, 120.0, 80.0];
+    (arms.left.vacuum, arms.right.vacuum) = (true, true);
+    arms
+}
+
+#[test]
+fn each_port_drives_its_own_arm() {
+    let mut arms = started(|_| ());
+    arms.right.tau_a = [0.0, 60.0, 20.0];
+    arms.left.f_h = [0.0, 80.0, 0.0];
+    run(&mut arms, 0, 300);
+    for (side, f_h, tau_a) in [
+        (&arms.left, [0.0, 80.0, 0.0], [0.0; 3]),
+        (&arms.right, [0.0; 3], [0.0, 60.0, 20.0]),
+    ] {
+        let mut single = ExoskeletonArm {
+            f_h,
+            tau_a,
+            ..ExoskeletonArm::default()
+        };
+        single.initialize(0.0, &mut Log::silent()).unwrap();
+        for k in 0..300 {
+            let step = Step {
+                start_time: 0.0,
+                t: f64::from(k) * 1e-3,
+                h: 1e-3,
+            };
+            single.step(step, &mut Log::silent()).unwrap();
+        }
+        assert_ne!(single.dq, [0.0; 3]);
+        assert_eq!((side.q, side.dq, side.dp), (single.q, single.dq, single.dp));
+        assert_eq!(
+            (side.tau_applied, side.tau_f),
+            (single.tau_applied, single.tau_f)
+        );
+    }
+}
+
+#[test]
+fn the_payload_ties_the_arms_and_lambda_says_how_hard() {
+    let mut arms = lifting();
+    run(&mut arms, 0, 500);
+    assert!(arms.attached && arms.left.p_pad[2] > -0.35);
+    let apart: Vec<_> = (0..3)
+        .map(|i| arms.left.p_pad[i] - arms.right.p_pad[i] - [0.0, 0.4, 0.0][i])
+        .collect();
+    let gap = apart.iter().map(|x| x * x).sum::<f64>().sqrt();
+    assert!(gap > 0.0 && gap < 1e-5, "{gap:e}");
+    assert!((arms.gap - gap).abs() < 1e-15, "{:e} {gap:e}", arms.gap); // roundings of 0.4 m
+    // The left half hangs on the right one: down on it, and less tension here than there would be without.
+    assert!(arms.lambda[2] < -5.0, "{:?}", arms.lambda);
+    assert!(arms.left.tension > arms.right.tension);
+    assert!(arms.bond_energy.stored > 0.0 && arms.bond_energy.loss > 0.0);
+}
+
+#[test]
+fn a_state_that_is_restored_continues_to_the_last_bit() {
+    let mut arms = lifting();
+    run(&mut arms, 0, 100);
+    let saved = postcard::to_allocvec(&arms).unwrap();
+    run(&mut arms, 100, 300);
+    let mut restored: ExoskeletonArms = postcard::from_bytes(&saved).unwrap();
+    run(&mut restored, 100, 300);
+    assert_eq!(
+        postcard::to_allocvec(&restored).unwrap(),
+        postcard::to_allocvec(&arms).unwrap()
+    );
+}
+
+#[test]
+fn one_long_step_is_many_short_ones() {
+    let (mut short, mut long) = (lifting(), lifting());
+    run(&mut short, 0, 100);
+    let step = Step {
+        start_time: 0.0,
+        t: 0.0,
+        h: 0.1,
+    };
+    long.step(step, &mut Log::silent()).unwrap();
+    // The substeps differ by roundings of 0.1/1000; after 1000 of them some 1e-13 is left.
+    for i in 0..3 {
+        assert!((short.left.q[i] - long.left.q[i]).abs() < 1e-11);
+        assert!((short.right.q[i] - long.right.q[i]).abs() < 1e-11);
+    }
+}
+
+#[test]
+fn a_step_of_too_many_substeps_is_refused() {
+    let mut arms = started(|arms| arms.substep = 1e-7);
+    let step = Step {
+        start_time: 0.0,
+        t: 0.0,
+        h: 1e9,
+    };
+    let refusal = arms.step(step, &mut Log::silent()).unwrap_err();
+    assert!(
+        refusal
+            .0
+            .starts_with("step size 1000000000.0 s: expected less than"),
+        "{}",
+        refusal.0
+    );
+}
+
+#[test]
+fn numbers_out_of_range_are_refused() {
+    let mut arms = lifting();
+    arms.right.f_h[0] = 1e308;
+    let step = Step {
+        start_time: 0.0,
+        t: 0.0,
+        h: 1.0,
+    };
+    let refusal = arms.step(step, &mut Log::silent()).unwrap_err();
+    assert!(
+        refusal.0.starts_with("motion left the range of numbers"),
+        "{}",
+        refusal.0
+    );
+}
