@@ -1,6 +1,7 @@
 """Child process of test_abuse: abuses one FMU through fmpy and prints what happened as JSON.
 
-Every attempt is [name, outcome, messages logged by the FMU during it].
+Every attempt is [name, outcome, messages logged by the FMU during it]. What is abused comes from the description: the
+first Real input, the first Real output, the first fixed Real parameter; every Real input is pushed.
 """
 
 import json
@@ -32,13 +33,24 @@ callbacks.allocateMemory = fmi2CallbackAllocateMemoryTYPE(fmpy.calloc)
 callbacks.freeMemory = fmi2CallbackFreeMemoryTYPE(fmpy.free)
 addLoggerProxy(byref(callbacks))
 
-path = sys.argv[1]
+path, push, settings = sys.argv[1], float(sys.argv[2]), json.loads(sys.argv[3])
 description = fmpy.read_model_description(path)
 folder = fmpy.extract(path)
-references = {v.name: v.valueReference for v in description.modelVariables}
-is_controller = description.modelName == "TestbedController"
-INPUT, OUTPUT, FIXED = ("q", "tau_a", "T") if is_controller else ("tau_a", "q", "M")
-T = 0.002
+variables = {v.name: v for v in description.modelVariables}
+references = {name: v.valueReference for name, v in variables.items()}
+
+
+def reals(**wanted: str) -> list[str]:
+    return [
+        name
+        for name, v in variables.items()
+        if v.type == "Real" and all(getattr(v, key) == value for key, value in wanted.items())
+    ]
+
+
+INPUTS, OUTPUTS = reals(causality="input"), reals(causality="output")
+INPUT, OUTPUT, FIXED = INPUTS[0], OUTPUTS[0], reals(causality="parameter", variability="fixed")[0]
+T = float(description.defaultExperiment.stepSize)
 report: list[list[Any]] = []
 
 
@@ -64,16 +76,18 @@ def attempt(name: str, call: Any) -> None:
     report.append([name, outcome, errors])
 
 
-def steps(instance: Any, first: int, count: int) -> list[float]:
+def steps(instance: Any, first: int, count: int) -> list[list[float]]:
     values = []
     for k in range(first, first + count):
-        instance.setReal([references["tau_h"]], [3.0])
+        instance.setReal([references[name] for name in INPUTS], [push] * len(INPUTS))
         instance.doStep(k * T, T)
-        values += instance.getReal([references[OUTPUT]])
+        values.append(instance.getReal([references[name] for name in OUTPUTS]))
     return values
 
 
 def initialize(instance: Any) -> None:
+    for name, value in settings.items():
+        (instance.setReal if variables[name].type == "Real" else instance.setInteger)([references[name]], [value])
     instance.setupExperiment(startTime=0.0)
     instance.enterInitializationMode()
     instance.exitInitializationMode()
@@ -105,7 +119,7 @@ attempt("set of an output", lambda: x.setReal([references[OUTPUT]], [1.0]))
 attempt("set of a fixed parameter", lambda: x.setReal([references[FIXED]], [1.0]))
 attempt(
     "a good value beside a bad one",
-    lambda: x.setReal([references[INPUT], references["tau_h"]], [1.0, math.nan]),
+    lambda: x.setReal([references[INPUTS[0]], references[INPUTS[-1]]], [1.0, math.nan]),
 )
 
 
@@ -120,4 +134,5 @@ attempt("terminate twice", make_terminated)
 values += steps(x, 20, 20)
 x.freeInstance()
 
-print(json.dumps({"report": report, "survived": values == expected, "moved": len(set(expected)) > 1}))
+moved = len({tuple(row) for row in expected}) > 1
+print(json.dumps({"report": report, "survived": values == expected, "moved": moved, "last_input": INPUTS[-1]}))

@@ -1,6 +1,7 @@
 """What the system tests share: the built archives, a scenario's run per file, synthetic recordings."""
 
 from collections.abc import Iterator, Mapping
+from contextlib import ExitStack
 from pathlib import Path
 from typing import Any
 
@@ -14,7 +15,7 @@ from exo.experiment import Experiment
 from exo.fmu import Archive, find_fmu_dir
 from exo.recording import Recording
 
-NAMES = ("TestbedController", "Testbed")
+NAMES = ("TestbedController", "Testbed", "ArmController", "ExoskeletonArm", "ExoskeletonArms", "HumanOperator")
 
 
 def verdict_ids(name: str) -> list[str]:
@@ -47,9 +48,9 @@ def fmu(request: pytest.FixtureRequest, fmu_dir: Path) -> Path:
 
 @pytest.fixture(scope="session")
 def archives(fmu_dir: Path) -> Iterator[Mapping[str, Archive]]:
-    """Both archives, extracted, by file name."""
-    with Archive(fmu_dir / f"{NAMES[0]}.fmu") as controller, Archive(fmu_dir / f"{NAMES[1]}.fmu") as plant:
-        yield {archive.path.name: archive for archive in (controller, plant)}
+    """All archives, extracted, by file name."""
+    with ExitStack() as stack:
+        yield {f"{name}.fmu": stack.enter_context(Archive(fmu_dir / f"{name}.fmu")) for name in NAMES}
 
 
 @pytest.fixture(scope="module")

@@ -30,15 +30,26 @@ EXPECTED = {
     "get of another type": ("fmi2GetInteger", ["fmi2GetInteger"]),
     "set of an output": ("fmi2SetReal", ["fmi2SetReal"]),
     "set of a fixed parameter": ("fmi2SetReal", ["fmi2SetReal"]),
-    "a good value beside a bad one": ("fmi2SetReal", ["tau_h", "NaN"]),
+    "a good value beside a bad one": ("fmi2SetReal", ["NaN"]),
     "terminate twice": ("fmi2Terminate", ["fmi2Terminate"]),
 }
 
 
-@pytest.fixture(scope="module", params=["TestbedController", "Testbed"])
+#: FMU → what every Real input is set to, and start values, so that the outputs move (a hand pulls after its delay).
+CASES = {
+    "TestbedController": (3.0, {}),
+    "Testbed": (3.0, {}),
+    "ArmController": (0.3, {}),
+    "ExoskeletonArm": (30.0, {}),
+    "HumanOperator": (0.1, {"k_h": 100.0, "b_h": 1.0, "delay": 0.002}),
+}
+
+
+@pytest.fixture(scope="module", params=CASES)
 def outcome(request: pytest.FixtureRequest, fmu_dir: Path) -> dict[str, Any]:
+    push, settings = CASES[request.param]
     child = subprocess.run(
-        [sys.executable, CHILD, fmu_dir / f"{request.param}.fmu"],
+        [sys.executable, CHILD, fmu_dir / f"{request.param}.fmu", str(push), json.dumps(settings)],
         capture_output=True,
         text=True,
         check=False,
@@ -55,6 +66,11 @@ def test_nothing_goes_to_stderr(outcome: dict[str, Any]) -> None:
 def test_the_instance_runs_on_as_if_nothing_had_happened(outcome: dict[str, Any]) -> None:
     assert outcome["moved"]
     assert outcome["survived"]
+
+
+def test_a_refused_value_is_named(outcome: dict[str, Any]) -> None:
+    errors = next(errors for name, _, errors in outcome["report"] if name == "a good value beside a bad one")
+    assert outcome["last_input"] in errors[0]
 
 
 def test_every_attempt_was_made(outcome: dict[str, Any]) -> None:

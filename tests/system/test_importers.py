@@ -1,46 +1,51 @@
 """Tools that judge FMUs: fmpy, the official schema, fmutool, libcosimpy."""
 
+import json
 import subprocess
 import sys
 import zipfile
 from pathlib import Path
+from typing import Any
 
 import fmpy
-import pytest
 from lxml import etree
 
 from exo.validate import problems
 
-#: Runs in a process of its own: libcosimpy ends it with a segmentation fault when it refuses an FMU.
+#: Runs in a process of its own: libcosimpy ends it with a segmentation fault when it refuses an FMU. What it does comes
+#: as JSON: step (ns) and count, instances, start values, connections, outputs to print.
 COSIM = """
-import sys
+import json, sys
 from libcosimpy.CosimExecution import CosimExecution
 from libcosimpy.CosimLogging import CosimLogLevel, log_output_level
 from libcosimpy.CosimObserver import CosimObserver
 from libcosimpy.CosimSlave import CosimLocalSlave
 
+job = json.loads(sys.argv[1])
 log_output_level(CosimLogLevel.INFO)
-execution = CosimExecution.from_step_size(step_size=2_000_000)
+execution = CosimExecution.from_step_size(step_size=job["step_ns"])
 indices = {}
-for name, path in zip(("controller", "plant"), sys.argv[1:]):
+for name, path in job["instances"].items():
     slave = CosimLocalSlave(fmu_path=path, instance_name=name)
     indices[name] = execution.add_local_slave(local_slave=slave)
 references = {
     name: {v.name.decode(): v.reference for v in execution.slave_variables(index)} for name, index in indices.items()
 }
-execution.real_initial_value(indices["controller"], references["controller"]["tau_h"], 3.0)
-execution.real_initial_value(indices["plant"], references["plant"]["tau_h"], 3.0)
-execution.connect_real_variables(
-    indices["plant"], references["plant"]["q"], indices["controller"], references["controller"]["q"]
-)
-execution.connect_real_variables(
-    indices["controller"], references["controller"]["tau_a"], indices["plant"], references["plant"]["tau_a"]
-)
+def at(key):
+    name, variable = key.split(".", 1)
+    return indices[name], references[name][variable]
+for key, value in job["start"].items():
+    (execution.real_initial_value if isinstance(value, float) else execution.integer_initial_value)(*at(key), value)
+for target, source in job["connections"].items():
+    execution.connect_real_variables(*at(source), *at(target))
 observer = CosimObserver.create_last_value()
 execution.add_observer(observer=observer)
-assert execution.step(step_count=500)
-(q,) = observer.last_real_values(slave_index=indices["plant"], variable_references=[references["plant"]["q"]])
-print("q =", q)
+assert execution.step(step_count=job["steps"])
+found = {}
+for key in job["outputs"]:
+    index, reference = at(key)
+    (found[key],) = observer.last_real_values(slave_index=index, variable_references=[reference])
+print("found", json.dumps(found))
 """
 
 
@@ -79,25 +84,68 @@ def test_fmutool_finds_nothing(fmu: Path) -> None:
     assert not any(word in output for word in ("ERROR", "WARNING", "CRITICAL")), output
 
 
-def cosim(*paths: Path) -> subprocess.CompletedProcess[str]:
-    return subprocess.run(
-        [sys.executable, "-c", COSIM, *map(str, paths)], capture_output=True, text=True, check=False, timeout=60
+def cosim(job: dict[str, Any]) -> dict[str, float]:
+    """Runs the job; any complaint of libcosimpy fails."""
+    answer = subprocess.run(
+        [sys.executable, "-c", COSIM, json.dumps(job)], capture_output=True, text=True, check=False, timeout=60
     )
-
-
-def test_libcosimpy_loads_couples_and_steps_without_a_complaint(fmu_dir: Path) -> None:
-    answer = cosim(fmu_dir / "TestbedController.fmu", fmu_dir / "Testbed.fmu")
     output = answer.stdout + answer.stderr
     assert answer.returncode == 0, output
     complaints = [line for line in output.splitlines() if "[error]" in line.lower() or "[warning]" in line.lower()]
     assert complaints == []
+    return dict(json.loads(output.split("found ")[1].splitlines()[0]))
+
+
+def test_libcosimpy_couples_the_testbed_without_a_complaint(fmu_dir: Path) -> None:
+    found = cosim(
+        {
+            "step_ns": 2_000_000,
+            "steps": 500,
+            "instances": {
+                "controller": str(fmu_dir / "TestbedController.fmu"),
+                "plant": str(fmu_dir / "Testbed.fmu"),
+            },
+            "start": {"controller.tau_h": 3.0, "plant.tau_h": 3.0},
+            "connections": {"controller.q": "plant.q", "plant.tau_a": "controller.tau_a"},
+            "outputs": ["plant.q"],
+        }
+    )
     # 3 N on M_n = 5 kg with D_n + friction for 1 s, up to the wall at 0.3 m: it has moved toward it.
-    assert 0.1 < float(output.split("q =")[1].split()[0]) < 0.3
+    assert 0.1 < found["plant.q"] < 0.3
 
 
-@pytest.mark.parametrize("name", ["TestbedController", "Testbed"])
-def test_the_archive_has_the_parts_that_importers_look_for(name: str, fmu_dir: Path) -> None:
-    with zipfile.ZipFile(fmu_dir / f"{name}.fmu") as archive:
+def test_libcosimpy_couples_arm_controller_and_operator_without_a_complaint(fmu_dir: Path) -> None:
+    three = (1, 2, 3)
+    pairs = {
+        "controller.q": "plant.q",
+        "controller.f_h": "operator.f_h",
+        "plant.tau_a": "controller.tau_a",
+        "plant.f_h": "operator.f_h",
+        "operator.p": "plant.p",
+        "operator.dp": "plant.dp",
+    }
+    start = {"axis": 3, "kind": 2, "t_on": 0.1, "amplitude": 6.0}
+    names = {"controller": "ArmController", "plant": "ExoskeletonArm", "operator": "HumanOperator"}
+    found = cosim(
+        {
+            "step_ns": 1_000_000,
+            "steps": 1500,
+            "instances": {name: str(fmu_dir / f"{archive}.fmu") for name, archive in names.items()},
+            # libcosim exchanges after each step; engaged before the first exchange the controller would see q = 0.
+            "start": {f"operator.segment[1].{key}": value for key, value in start.items()}
+            | {f"controller.q[{i}]": q for i, q in zip(three, (0.0, -1.48096, 1.70138), strict=True)},
+            "connections": {f"{to}[{i}]": f"{origin}[{i}]" for to, origin in pairs.items() for i in three},
+            "outputs": ["plant.p[3]", "controller.p[3]", "controller.e_nr[3]"],
+        }
+    )
+    # 6 N on 5 kg with 20 N·s/m for 1.4 s: 0.3 m/s after 0.25 s, 0.35 m up from −0.24 m, less friction.
+    assert 0.0 < found["plant.p[3]"] < 0.15
+    assert abs(found["controller.e_nr[3]"]) < 0.02
+
+
+def test_the_archive_has_the_parts_that_importers_look_for(fmu: Path) -> None:
+    name = fmu.stem
+    with zipfile.ZipFile(fmu) as archive:
         names = archive.namelist()
     assert "modelDescription.xml" in names
     assert f"binaries/linux64/{name}.so" in names

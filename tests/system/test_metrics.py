@@ -52,6 +52,73 @@ def test_lowest_change_is_negative_once_the_column_falls_below_its_start() -> No
     assert metrics.lowest_change(recording(time=TIME, E=column), column="E") == -0.5
 
 
+def test_rise_is_taken_above_the_mean_of_its_own_window() -> None:
+    run = recording(time=TIME, z=np.where(TIME < 5.0, 1.0, 1.0 + 0.1 * (TIME - 5.0)))
+    value = metrics.rise(run, column="z", after=6.0, before=8.0, above_mean=(1.0, 4.0))
+    assert value == pytest.approx(0.299)
+    assert metrics.peak_to_peak(run, column="z", after=6.0, before=8.0) == pytest.approx(0.199)
+
+
+def test_leaving_delay_counts_from_after_and_is_nan_for_what_stays() -> None:
+    z = np.where(TIME < 7.0, 0.5, 0.503)
+    z[450] = 0.6
+    run = recording(time=TIME, z=z)
+    arguments = {"position": "z", "after": 5.0, "above_mean": (1.0, 4.0)}
+    assert metrics.leaving_delay(run, margin=0.002, **arguments) == pytest.approx(2.0)
+    assert math.isnan(metrics.leaving_delay(run, margin=0.004, **arguments))
+
+
+def test_mean_rate_is_taken_between_two_ticks() -> None:
+    run = recording(time=TIME, z=TIME**2)
+    assert metrics.mean_rate(run, column="z", first=2.0, last=4.0) == pytest.approx(6.0)
+
+
+def test_jump_is_what_goes_beyond_the_velocity_before() -> None:
+    z = 0.3 * TIME + np.where(TIME < 4.0, 0.0, 0.02 * (1.0 - np.exp(-10.0 * (TIME - 4.0))))
+    run = recording(time=TIME, z=z, dz=np.full(1000, 0.3))
+    value = metrics.jump(run, position="z", velocity="dz", at=4.0, within=2.0)
+    assert value == pytest.approx(0.02, rel=1e-6)
+
+
+@pytest.mark.parametrize("sigma", [-1.3, 0.4])
+def test_the_growth_rate_of_a_known_swing_is_found(sigma: float) -> None:
+    swing = 0.44 + 1e-4 * np.exp(sigma * TIME) * np.sin(9.0 * TIME + 0.7)
+    run = recording(time=TIME, x=swing)
+    assert metrics.growth_rate(run, column="x", after=2.0, before=6.0) == pytest.approx(sigma, abs=1e-6)
+
+
+def test_spring_share_is_that_of_the_worst_axis() -> None:
+    names = {"K": (1000.0, 1000.0, 500.0), "K_P": (20.0, 20.0, 20.0), "f_max": (400.0, 400.0, 100.0)}
+    parameters = {f"c.{name}[{i}]": x for name, xs in names.items() for i, x in enumerate(xs, start=1)}
+    errors = {"c__e_nr[1]": [0.0, 0.01], "c__e_nr[2]": [-0.015, 0.0], "c__e_nr[3]": [0.001, -0.0095]}
+    run = recording(time=TIME[:2], parameters=parameters, **errors)
+    # 200/400, 300/400, 95/100 N.
+    assert metrics.spring_share(run, controller="c") == pytest.approx(0.95)
+
+
+def test_drift_is_compared_with_the_reaction_of_the_load() -> None:
+    parameters = {"c.K[3]": 1000.0, "c.D_n[3]": 20.0, "c.alpha": 1.0}
+    columns = {"c__p[3]": -0.01 * TIME, "c__f_a[3]": np.full(1000, 180.0)}
+    run = recording(time=TIME, parameters=parameters, **columns)
+    value = metrics.drift_over_prediction(run, controller="c", axis=3, moving=(2.0, 5.0), loaded=(4.0, 5.0))
+    assert value == pytest.approx(0.01 / 0.009)
+
+
+def test_only_a_loss_under_vacuum_is_a_break() -> None:
+    held = np.array([False, True, True, False, True, True, False])
+    vacuum = np.array([True, True, True, True, True, True, False])
+    run = recording(time=TIME[:7], held=held, vacuum=vacuum)
+    assert metrics.bond_breaks(run, attached="held", vacuum="vacuum") == 1.0
+
+
+def test_the_residual_is_shared_over_the_work_that_went_through() -> None:
+    # Work back and forth counts both ways: 3 J, then 1 J of another.
+    run = recording(time=TIME[:3], r=[0.0, -0.02, 0.01], a=[0.0, 2.0, 1.0], b=[0.0, 0.0, 1.0])
+    assert metrics.residual_share(run, residual="r", works=("a", "b")) == pytest.approx(0.005)
+    idle = recording(time=TIME[:3], r=np.zeros(3), a=np.zeros(3))
+    assert math.isnan(metrics.residual_share(idle, residual="r", works=("a",)))
+
+
 def test_spring_force_takes_the_gains_from_the_run() -> None:
     run = recording(time=TIME[:3], e=[0.0, -0.05, 0.01], parameters={"K": 30.0, "K_P": 10.0})
     assert metrics.max_spring_force(run, error="e", K="K", K_P="K_P") == pytest.approx(15.0)

@@ -71,6 +71,17 @@ def test_the_good_one_is_good() -> None:
         ),
         ('id = "only"', 'id = "only"\n[[cases]]\nid = "only"', r"case id only stands twice"),
         ('source = "here"\n', 'source = "here"\n[broken\n', r"mini\.toml: not TOML: .*line"),
+        (
+            'id = "only"',
+            'id = "only"\n[[figures]]\nid = "f"\ntitle = "f"\nkind = "arm_poses"',
+            "such a figure needs poses",
+        ),
+        (
+            'id = "only"',
+            'id = "only"\n[[figures]]\nid = "f"\ntitle = "f"\nkind = "arm_poses"\n'
+            'poses = { case = "other", plant = "plant", times = [0.0] }',
+            r"figure f: unknown case other .*only",
+        ),
         ('unit = "m"', 'unit = "m"\ncases = ["other"]', r"metric m: unknown case other .*only"),
         ('unit = "m"', 'unit = "m"\ncheck = { value = 1.0 }', r"value needs exactly one of within and relative"),
         ('unit = "m"', 'unit = "m"\ncheck = { at_most = 1.0, at_least = 0.0 }', r"one of value, at_most, at_least"),
@@ -112,5 +123,7 @@ def test_a_scenario_is_frozen() -> None:
 def test_the_published_errors_are_those_of_the_paper() -> None:
     assert [lookup(f"fig:1dof_perf/K={K}").value for K in ("7.5", "15", "30")] == [0.0207, 0.0103, 0.00549]
     assert all(number.rounding > 0.0 and ":" in number.label for number in published().values())
+    arm = [lookup(f"sec:task_space_control/K={K}").value for K in ("250", "500", "1000")]
+    assert arm == [0.046, 0.022, 0.011]
     with pytest.raises(ScenarioError, match=r"no fig:1dof_perf/K=3 .*K=30"):
         lookup("fig:1dof_perf/K=3")

@@ -10,7 +10,7 @@ import pytest
 from exo import profile, simulate
 from exo.errors import ExoError, FmuError
 from exo.fmu import Archive, Instance
-from exo.scenario import load
+from exo.scenario import Segment, load
 
 
 def job(**changes: Any) -> simulate.Plan:
@@ -68,8 +68,8 @@ def test_all_parameters_are_read_back(archives: Mapping[str, Archive]) -> None:
     ("inputs", "message"),
     [
         ({"controller.tau_hh": "profile.tau_h"}, r"TestbedController\.fmu: no variable tau_hh \(close matches: tau_h"),
-        ({"controller.engage": "plant.q"}, "engage: only Real inputs can be wired, this is input of type Boolean"),
-        ({"controller.M_n": "plant.q"}, "M_n: only Real inputs can be wired, this is parameter of type Real"),
+        ({"controller.engage": "plant.q"}, r"Testbed\.fmu: q: expected a Boolean output, this is output of type Real"),
+        ({"controller.M_n": "plant.q"}, "M_n: only inputs can be wired, this is parameter"),
         ({"plant.tau_a": "controller.tick"}, "tick: expected a Real output, this is output of type Integer"),
         ({"plant.tau_a": "controller.torque"}, r"TestbedController\.fmu: no variable torque"),
     ],
@@ -88,6 +88,32 @@ def test_a_refusal_in_the_loop_says_when_and_in_the_fmu_s_words(
     monkeypatch.setattr(profile, "evaluate", broken)
     with pytest.raises(FmuError, match=r"controller: fmi2SetReal returned fmi2Error: .*tau_h.*\(step at t = 0\.02 s\)"):
         simulate.simulate(plan=job(), archives=archives)
+
+
+def test_a_profile_drives_a_boolean_input_from_a_half_on(archives: Mapping[str, Archive]) -> None:
+    ramp = Segment(kind="constant", amplitude=1.0, t_on=0.02, ramp=0.04)
+    start = job()
+    run = simulate.simulate(
+        plan=replace(
+            start,
+            inputs={**start.inputs, "controller.engage": "profile.engage"},
+            profiles={**start.profiles, "engage": (ramp,)},
+        ),
+        archives=archives,
+    )
+    # Half of the ramp is at 0.04 s, tick 20.
+    assert run["controller.engage"].dtype == bool
+    assert (run["controller.engage"] == (np.arange(50) >= 20)).all()
+    assert (run["controller.engaged"] == run["controller.engage"]).all()
+
+
+def test_a_boolean_output_drives_a_boolean_input(archives: Mapping[str, Archive]) -> None:
+    start = job()
+    run = simulate.simulate(
+        plan=replace(start, inputs={**start.inputs, "controller.engage": "controller.saturated"}), archives=archives
+    )
+    # Nothing is ever engaged by what only an engaged controller shows.
+    assert not run["controller.engaged"].any()
 
 
 def test_messages_of_two_instances_are_told_apart(archives: Mapping[str, Archive]) -> None:

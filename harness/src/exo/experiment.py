@@ -10,6 +10,7 @@ from typing import Any
 from exo import metrics
 from exo.errors import ScenarioError, close_matches
 from exo.fmu import Archive
+from exo.naming import elements
 from exo.paper import lookup
 from exo.recording import Recording
 from exo.scenario import Case, Scenario, Value
@@ -116,7 +117,8 @@ def _parse_overrides(
         if component not in scenario.components or not name:
             known = close_matches(component, scenario.components)
             raise ScenarioError(f"--set {key}: expected <component>.<parameter>, got component {component!r}{known}")
-        parsed[key] = archives[scenario.components[component].archive].parse(name, text)
+        archive = archives[scenario.components[component].archive]
+        parsed.update({f"{component}.{element}": archive.parse(element, text) for element in elements(name)})
     return parsed
 
 

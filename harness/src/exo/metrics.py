@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.optimize import least_squares
 
 from exo import theory
 from exo.errors import ScenarioError, close_matches
@@ -76,6 +77,71 @@ def mean(run: Recording, *, column: str, after: float | None = None, before: flo
 
 
 @metric
+def peak_to_peak(run: Recording, *, column: str, after: float | None = None, before: float | None = None) -> float:
+    """Largest less smallest value."""
+    return float(np.ptp(_values(run, column, after, before)))
+
+
+@metric
+def rise(run: Recording, *, column: str, after: float, before: float, above_mean: tuple[float, float]) -> float:
+    """Largest value in the window less the mean over `above_mean` (s, s)."""
+    return float(np.max(_values(run, column, after, before)) - np.mean(_values(run, column, *above_mean)))
+
+
+@metric
+def leaving_delay(
+    run: Recording, *, position: str, margin: float, after: float, above_mean: tuple[float, float]
+) -> float:
+    """Time from `after` to the first position more than `margin` above its mean over `above_mean` (s, s)."""
+    bound = np.mean(_values(run, position, *above_mean)) + margin
+    free = window(run.time, after=after, before=None) & (run[position] > bound)
+    return float(run.time[np.argmax(free)] - after) if free.any() else math.nan
+
+
+@metric
+def mean_rate(run: Recording, *, column: str, first: float, last: float) -> float:
+    """(x(last) − x(first))/(last − first), both instants being ticks."""
+    k = [int(np.argmax(window(run.time, after=instant, before=None))) for instant in (first, last)]
+    return float((run[column][k[1]] - run[column][k[0]]) / (run.time[k[1]] - run.time[k[0]]))
+
+
+@metric
+def jump(run: Recording, *, position: str, velocity: str, at: float, within: float) -> float:
+    """How far the position gets, within some time after `at` (s), ahead of going on with the velocity it had then."""
+    ticks = np.flatnonzero(window(run.time, after=at, before=at + within))
+    since = run.time[ticks] - run.time[ticks[0]]
+    return float(np.max(run[position][ticks] - run[position][ticks[0]] - run[velocity][ticks[0]] * since))
+
+
+@metric
+def growth_rate(run: Recording, *, column: str, after: float, before: float) -> float:
+    """σ (1/s) of a swing c + exp(σ t) A sin(ω t + φ) fitted to the window by least squares."""
+    shown = window(run.time, after=after, before=before)
+    time, signal = run.time[shown] - after, run[column][shown]
+    centered = signal - np.mean(signal)
+    scaled = centered / np.max(np.abs(centered))
+    crossings = int(np.count_nonzero(np.diff(np.signbit(scaled))))
+    omega = math.pi * max(crossings, 1) / (before - after)
+
+    def left(x: NDArray[np.float64]) -> NDArray[np.float64]:
+        swing = x[3] * np.sin(x[2] * time) + x[4] * np.cos(x[2] * time)
+        return np.asarray(x[0] + np.exp(x[1] * time) * swing - scaled)
+
+    return float(least_squares(left, [0.0, 0.0, omega, 0.5, 0.5]).x[1])
+
+
+@metric
+def hand_growth_error(run: Recording, *, column: str, after: float, before: float, Lambda: float) -> float:
+    """Distance of the measured σ (1/s) from the closed form for a hand of stiffness k_h on an arm without friction, of
+    mass `Lambda` (kg) along x. Components are `controller`, `plant` and `operator`."""
+    names = {"M_n": "Lambda_n[1]", "D_n": "D_n[1]", "K": "K[1]", "K_P": "K_P[1]", "alpha": "alpha", "T": "T"}
+    gains = {name: run.parameter(f"controller.{key}") for name, key in names.items()}
+    loop = theory.Loop(M=Lambda, substep=run.parameter("plant.substep"), **gains)
+    expected = theory.hand_growth_rate(loop=loop, k_h=run.parameter("operator.k_h"))
+    return abs(growth_rate(run, column=column, after=after, before=before) - expected)
+
+
+@metric
 def lowest_change(run: Recording, *, column: str) -> float:
     """min x − x(0): below zero when the column ever falls under its start."""
     return float(np.min(run[column]) - run[column][0])
@@ -92,6 +158,42 @@ def release_delay(run: Recording, *, position: str, wall: str, margin: float, af
 def max_spring_force(run: Recording, *, error: str, K: str, K_P: str) -> float:
     """max |K K_P e_nr| (N): what the spring between nominal and robot ever asks for."""
     return run.parameter(K) * run.parameter(K_P) * float(np.max(np.abs(run[error])))
+
+
+@metric
+def spring_share(run: Recording, *, controller: str) -> float:
+    """max |K K_P e_nr| / f_max over axes and ticks: 1 when the bound is reached."""
+    return max(
+        max_spring_force(run, error=f"{controller}.e_nr[{i}]", K=f"{controller}.K[{i}]", K_P=f"{controller}.K_P[{i}]")
+        / run.parameter(f"{controller}.f_max[{i}]")
+        for i in (1, 2, 3)
+    )
+
+
+@metric
+def drift_over_prediction(
+    run: Recording, *, controller: str, axis: int, moving: tuple[float, float], loaded: tuple[float, float]
+) -> float:
+    """Velocity of the handle over `moving` (s, s) divided by −α f_a/(K D_n), f_a its mean over `loaded` (s, s): what
+    eq:obs_dyn says of a nominal on which nothing acts but the reaction of a constant load."""
+    value = {name: run.parameter(f"{controller}.{name}[{axis}]") for name in ("K", "D_n")}
+    f_a = np.mean(_values(run, f"{controller}.f_a[{axis}]", *loaded))
+    predicted = -run.parameter(f"{controller}.alpha") * f_a / (value["K"] * value["D_n"])
+    return mean_rate(run, column=f"{controller}.p[{axis}]", first=moving[0], last=moving[1]) / float(predicted)
+
+
+@metric
+def bond_breaks(run: Recording, *, attached: str, vacuum: str) -> float:
+    """How often a held payload was lost while the vacuum was on."""
+    held = run[attached]
+    return float(np.count_nonzero(held[:-1] & ~held[1:] & run[vacuum][1:]))
+
+
+@metric
+def residual_share(run: Recording, *, residual: str, works: tuple[str, ...]) -> float:
+    """Largest residual of an energy balance over the throughput: the total variation of all works; NaN if none."""
+    throughput = sum(float(np.sum(np.abs(np.diff(run[work])))) for work in works)
+    return float(np.max(np.abs(run[residual]))) / throughput if throughput else math.nan
 
 
 @metric

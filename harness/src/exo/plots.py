@@ -10,7 +10,7 @@ import pyarrow as pa
 from matplotlib import rcsetup
 from matplotlib.figure import Figure as Canvas
 
-from exo import theory
+from exo import poses, theory
 from exo.errors import ScenarioError
 from exo.metrics import loop_of, measured_response, window
 from exo.recording import Recording
@@ -43,6 +43,8 @@ def draw(*, figure: Figure, recordings: Mapping[str, Recording], path: Path) -> 
         canvas = Canvas(layout="constrained")
         if figure.kind == "frequency_response":
             _frequency_response(canvas, recordings)
+        elif figure.poses:
+            poses.draw(canvas=canvas, poses=figure.poses, run=recordings[figure.poses.case])
         else:
             _panels(canvas, figure, recordings)
         canvas.suptitle(figure.title, fontsize=11)
@@ -96,6 +98,8 @@ def data(*, figure: Figure, recordings: Mapping[str, Recording]) -> pa.Table:
     """The figure's numbers, one column a curve, labelled as in the figure."""
     if figure.kind == "frequency_response":
         return pa.table(response_table(recordings))
+    if figure.poses:
+        return pa.table(poses.table(poses=figure.poses, run=recordings[figure.poses.case]))
     columns: dict[str, Any] = {}
     for panel in figure.panels:
         for curve in panel.curves:

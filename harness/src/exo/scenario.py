@@ -9,19 +9,33 @@ from importlib.resources.abc import Traversable
 from pathlib import Path
 from typing import Annotated, Any, Literal, Self
 
-from pydantic import BaseModel, ConfigDict, Field, StringConstraints, ValidationError, model_validator
+from pydantic import (
+    BaseModel,
+    BeforeValidator,
+    ConfigDict,
+    Field,
+    StringConstraints,
+    ValidationError,
+    model_validator,
+)
 
 from exo.errors import ScenarioError, close_matches
+from exo.naming import expand_names, expand_values, expand_wires
 
 Coupling = Literal["zero_delay", "one_sample_delay", "exchange_at_once"]
 Value = bool | int | float | str
 Identifier = Annotated[str, StringConstraints(pattern=r"^[A-Za-z0-9_.+-]+$")]
 #: `component.variable`, the name of an FMU's variable in a scenario.
 Qualified = Annotated[str, StringConstraints(pattern=r"^[A-Za-z_]\w*\.\S+$")]
+#: Arrays may be written at once, see `exo.naming`; what is kept has one entry an element.
+Parameters = Annotated[dict[str, Value], BeforeValidator(expand_values)]
+QualifiedParameters = Annotated[dict[Qualified, Value], BeforeValidator(expand_values)]
+Wires = Annotated[dict[Qualified, Qualified], BeforeValidator(expand_wires)]
+Columns = Annotated[tuple[Qualified, ...], BeforeValidator(expand_names)]
 Positive = Annotated[float, Field(gt=0.0)]
 NotNegative = Annotated[float, Field(ge=0.0)]
 
-#: Component name that stands for the scenario's force profiles in `inputs`.
+#: Component name that stands for the scenario's profiles in `inputs`. A Boolean input is true from a half on.
 PROFILE = "profile"
 
 
@@ -61,7 +75,7 @@ class Component(Data):
     """One FMU instance: its archive in the FMU folder and the start values that every case shares."""
 
     archive: Annotated[str, StringConstraints(pattern=r"^\w+\.fmu$")]
-    parameters: dict[str, Value] = {}
+    parameters: Parameters = {}
 
 
 class Case(Data):
@@ -69,8 +83,8 @@ class Case(Data):
 
     id: Identifier
     label: str = ""
-    parameters: dict[Qualified, Value] = {}
-    inputs: dict[Qualified, Qualified] = {}
+    parameters: QualifiedParameters = {}
+    inputs: Wires = {}
     profiles: dict[str, tuple[Segment, ...]] = {}
     coupling: Coupling | None = None
     duration: Positive | None = None
@@ -151,17 +165,40 @@ class Panel(Data):
     marks: tuple[float, ...] = ()
 
 
+class Poses(Data):
+    """Instants of a run at which the arm is drawn from the side."""
+
+    case: Identifier
+    #: Component that is the arm: its `q_joint`, `p`, `p_pad`, link lengths, table and payload are drawn.
+    plant: str
+    times: tuple[NotNegative, ...]
+
+
 class Figure(Data):
     """A picture and, beside it, its data. Panels fill the grid row by row."""
 
     id: Identifier
     title: str
-    kind: Literal["panels", "frequency_response"] = "panels"
+    kind: Literal["panels", "frequency_response", "arm_poses"] = "panels"
     #: The paper's label, when it is one of its figures.
     label: str = ""
     columns: Annotated[int, Field(ge=1)] = 1
     panels: tuple[Panel, ...] = ()
+    #: `arm_poses` only.
+    poses: Poses | None = None
     x_label: str = "time [s]"
+
+    @model_validator(mode="after")
+    def _fits_its_kind(self) -> Self:
+        if (self.kind == "arm_poses") != (self.poses is not None):
+            raise ValueError("poses belong to a figure of kind arm_poses, and such a figure needs poses")
+        return self
+
+    @property
+    def cases(self) -> list[str]:
+        """Cases that it names."""
+        drawn = [self.poses.case] if self.poses else []
+        return drawn + [curve.case for panel in self.panels for curve in panel.curves]
 
 
 class Scenario(Data):
@@ -178,13 +215,13 @@ class Scenario(Data):
     #: In the order in which they step.
     components: dict[Identifier, Component]
     #: Input → source: an output of a component, or `profile.<name>`.
-    inputs: dict[Qualified, Qualified]
+    inputs: Wires
     #: Inputs that come one macro step later under `one_sample_delay`.
-    delayed: tuple[Qualified, ...] = ()
+    delayed: Columns = ()
     profiles: dict[str, tuple[Segment, ...]] = {}
     cases: tuple[Case, ...]
     #: Columns that are stored with the results; all when empty. Metrics and figures see every column.
-    signals: tuple[Qualified, ...] = ()
+    signals: Columns = ()
     metrics: tuple[Metric, ...] = ()
     ratios: tuple[Ratio, ...] = ()
     figures: tuple[Figure, ...] = ()
@@ -207,7 +244,7 @@ class Scenario(Data):
             owner = f"metric {metric.id}"
             _known(owner, "case", (*(metric.cases or ()), *metric.expected, *metric.paper), cases)
         for figure in self.figures:
-            _known(f"figure {figure.id}", "case", (c.case for p in figure.panels for c in p.curves), cases)
+            _known(f"figure {figure.id}", "case", figure.cases, cases)
         _known("delayed", "input", self.delayed, self.inputs)
         return self
 

@@ -27,6 +27,9 @@ from exo.fmu import DTYPES, Archive, Instance, Kind, References
 from exo.recording import Recording
 from exo.scenario import PROFILE, Case, Coupling, Scenario, Segment, Value
 
+#: A profile's value from which on the Boolean input that it drives is true.
+TRUE_FROM = 0.5
+
 
 @dataclass(frozen=True, kw_only=True)
 class Plan:
@@ -65,35 +68,42 @@ def plan(*, scenario: Scenario, case: Case, overrides: Mapping[str, Value] | Non
 
 
 class Part:
-    """One component in the loop: its instance and its buffers, one row per communication point."""
+    """One component in the loop: its instance and its buffers by kind, one row per communication point."""
 
     def __init__(self, instance: Instance, inputs: list[str], steps: int) -> None:
         archive = instance.archive
         for name in inputs:
             variable = archive.variable(name)
-            if variable.causality != "input" or variable.type != "Real":
-                what = f"{variable.causality} of type {variable.type}"
-                raise FmuError(f"{archive.path.name}: {name}: only Real inputs can be wired, this is {what}")
+            if variable.causality != "input":
+                raise FmuError(f"{archive.path.name}: {name}: only inputs can be wired, this is {variable.causality}")
         self.instance = instance
-        self.inputs = References(archive, inputs, "Real")
-        self.outputs = instance.references(archive.names("output"))
-        self.u = np.zeros((steps, len(inputs)))
-        self.y: dict[Kind, NDArray[Any]] = {
-            kind: np.zeros((steps + 1, refs.count), dtype=DTYPES[kind]) for kind, refs in self.outputs.items() if refs
-        }
+        self.inputs = {kind: refs for kind, refs in instance.references(inputs).items() if refs}
+        self.outputs = {kind: refs for kind, refs in instance.references(archive.names("output")).items() if refs}
+        self.u = _rows(self.inputs, steps)
+        self.y = _rows(self.outputs, steps + 1)
 
     def read_row(self, row: int) -> None:
         """Reads all outputs into a row."""
         for kind, buffer in self.y.items():
             self.instance.read(self.outputs[kind], buffer[row])
 
-    def output(self, name: str) -> int:
-        """Column of a Real output."""
+    def write_row(self, row: int) -> None:
+        """Sets all wired inputs from a row."""
+        for kind, buffer in self.u.items():
+            self.instance.write(self.inputs[kind], buffer[row])
+
+    def input(self, name: str) -> tuple[Kind, int]:
+        """Kind and column of a wired input."""
+        return next((kind, refs.names.index(name)) for kind, refs in self.inputs.items() if name in refs.names)
+
+    def output(self, name: str, kind: Kind) -> int:
+        """Column of an output that must be of this kind."""
         variable = self.instance.archive.variable(name)
-        if name not in self.outputs["Real"].names:
-            what = f"{variable.causality} of type {variable.type}"
-            raise FmuError(f"{self.instance.archive.path.name}: {name}: expected a Real output, this is {what}")
-        return self.outputs["Real"].names.index(name)
+        if kind not in self.outputs or name not in self.outputs[kind].names:
+            article, what = "an" if kind == "Integer" else "a", f"{variable.causality} of type {variable.type}"
+            file = self.instance.archive.path.name
+            raise FmuError(f"{file}: {name}: expected {article} {kind} output, this is {what}")
+        return self.outputs[kind].names.index(name)
 
     def columns(self) -> dict[str, NDArray[Any]]:
         """Recorded columns: an output that is discrete in time belongs to the tick that step k ran, a continuous one to
@@ -104,15 +114,22 @@ class Part:
                 discrete = self.instance.archive.variable(name).variability == "discrete"
                 column = np.ascontiguousarray(buffer[1:, j] if discrete else buffer[:-1, j])
                 found[name] = column.astype(bool) if kind == "Boolean" else column
-        for j, name in enumerate(self.inputs.names):
-            found[name] = np.ascontiguousarray(self.u[:, j])
+        for kind, buffer in self.u.items():
+            for j, name in enumerate(self.inputs[kind].names):
+                column = np.ascontiguousarray(buffer[:, j])
+                found[name] = column.astype(bool) if kind == "Boolean" else column
         return found
+
+
+def _rows(references: Mapping[Kind, References], rows: int) -> dict[Kind, NDArray[Any]]:
+    return {kind: np.zeros((rows, refs.count), dtype=DTYPES[kind]) for kind, refs in references.items()}
 
 
 @dataclass(frozen=True)
 class Wire:
-    """A connection of two Real variables; `ahead` = 1 when it carries what the source put out in this very step."""
+    """A connection of variables of one kind; `ahead` = 1 when it carries what the source put out in this very step."""
 
+    kind: Kind
     target: Part
     input: int
     source: Part
@@ -171,18 +188,19 @@ def _check_names(plan: Plan, archives: Mapping[str, Archive]) -> None:
 def _wire(plan: Plan, parts: dict[str, Part], time: NDArray[np.float64]) -> list[Wire]:
     """Fills the profile columns of all inputs and returns the other connections."""
     order = list(parts)
-    forces = {name: profile.evaluate(segments=segments, time=time) for name, segments in plan.profiles.items()}
+    profiles = {name: profile.evaluate(segments=segments, time=time) for name, segments in plan.profiles.items()}
     wires = []
     for key, origin in plan.inputs.items():
         (to, name), (component, output) = key.split(".", 1), origin.split(".", 1)
-        column = parts[to].inputs.names.index(name)
+        kind, column = parts[to].input(name)
         if component == PROFILE:
-            parts[to].u[:, column] = forces[output]
+            values = profiles[output]
+            parts[to].u[kind][:, column] = values >= TRUE_FROM if kind == "Boolean" else values
             continue
         stepped_before = order.index(component) < order.index(to)
         late = plan.coupling == "exchange_at_once" or (plan.coupling == "one_sample_delay" and key in plan.delayed)
-        source = parts[component]
-        wires.append(Wire(parts[to], column, source, source.output(output), int(stepped_before and not late)))
+        source, ahead = parts[component], int(stepped_before and not late)
+        wires.append(Wire(kind, parts[to], column, source, source.output(output, kind), ahead))
     return wires
 
 
@@ -199,10 +217,9 @@ def _initialize(plan: Plan, parts: dict[str, Part], wires: list[Wire]) -> None:
         for part in parts.values():
             part.read_row(0)
         for wire in wires:
-            wire.target.u[0, wire.input] = wire.source.y["Real"][0, wire.output]
+            wire.target.u[wire.kind][0, wire.input] = wire.source.y[wire.kind][0, wire.output]
         for part in parts.values():
-            if part.inputs:
-                part.instance.write(part.inputs, part.u[0])
+            part.write_row(0)
     for part in parts.values():
         part.instance.exit_initialization_mode()
         part.read_row(0)
@@ -221,16 +238,16 @@ def _run(parts: list[Part], wires: list[Wire], plan: Plan) -> None:
         for part, component, copies, writes, do_step, reads in work:
             for target, at, width, source, output, stride in copies:
                 target[k * width + at] = source[k * stride + output]
-            for call, references, count, address, base, size in writes:
+            for name, call, references, count, address, base, size in writes:
                 address.value = base + k * size
                 if status := call(component, references, count, address):
-                    raise _located(part.instance.fail("fmi2SetReal", status), t.value)
+                    raise _located(part.instance.fail(name, status), t.value)
             if status := do_step(component, t, step, no_rollback):
                 raise _located(part.instance.fail("fmi2DoStep", status), t.value)
-            for call, references, count, address, base, size in reads:
+            for name, call, references, count, address, base, size in reads:
                 address.value = base + k * size
                 if status := call(component, references, count, address):
-                    raise _located(part.instance.fail("fmi2Get", status), t.value)
+                    raise _located(part.instance.fail(name, status), t.value)
 
 
 def _located(error: ExoError, t: float) -> ExoError:
@@ -239,15 +256,14 @@ def _located(error: ExoError, t: float) -> ExoError:
 
 def _prepared(part: Part, wires: list[Wire]) -> tuple[Any, ...]:
     """Everything that the loop needs of a component: flat views, and ctypes objects for the calls."""
-    width = part.u.shape[1]
     copies = []
     for wire in wires:
-        source = wire.source.y["Real"]
-        stride = source.shape[1]
+        target, source = part.u[wire.kind], wire.source.y[wire.kind]
+        width, stride = target.shape[1], source.shape[1]
         # `ahead` rows further on: part of the constant offset.
         offset = wire.ahead * stride + wire.output
-        copies.append((part.u.reshape(-1).data, wire.input, width, source.reshape(-1).data, offset, stride))
-    writes = [_transfer(part.instance, "Set", part.inputs, part.u, first_row=0)] if part.inputs else []
+        copies.append((target.reshape(-1).data, wire.input, width, source.reshape(-1).data, offset, stride))
+    writes = [_transfer(part.instance, "Set", part.inputs[kind], u, first_row=0) for kind, u in part.u.items()]
     reads = [_transfer(part.instance, "Get", part.outputs[kind], y, first_row=1) for kind, y in part.y.items()]
     component = c_void_p(part.instance.component)
     return part, component, copies, writes, part.instance.function("fmi2DoStep"), reads
@@ -256,8 +272,10 @@ def _prepared(part: Part, wires: list[Wire]) -> tuple[Any, ...]:
 def _transfer(
     instance: Instance, prefix: str, references: References, buffer: NDArray[Any], *, first_row: int
 ) -> tuple[Any, ...]:
-    """One Set or Get call of a row per step: function, references, their number, address, first address, row size."""
+    """One Set or Get call of a row per step: name, function, references, their number, address, first address, row
+    size."""
     size = buffer.strides[0]
     base = buffer.ctypes.data + first_row * size
-    function = instance.function(f"fmi2{prefix}{references.kind}")
-    return function, c_void_p(references.address), c_size_t(references.count), c_void_p(base), base, size
+    name = f"fmi2{prefix}{references.kind}"
+    addresses = c_void_p(references.address), c_size_t(references.count), c_void_p(base)
+    return name, instance.function(name), *addresses, base, size

@@ -102,3 +102,36 @@ def error_at_a_wall(
         curve[k] = x
         x, v, _ = step @ (x, v, force)
     return curve
+
+
+def hand_growth_rate(*, loop: Loop, k_h: float) -> float:
+    """Growth σ (1/s) of the slowest mode, exp(σ t), of the sampled loop with a hand of stiffness k_h (N/m), one axis.
+
+        M ddq = K y − k_h q                           eq:real_dyn, no friction; y and k_h q held over T
+        M_n ddq_n = −D_n dq_n − α y − k_h q           eq:obs_dyn
+        y = de + K_P e                                eq:dob_input
+
+    From the largest eigenvalue λ of the map of one tick, σ = ln|λ|/T. The hand is no passive load: it acts on the
+    nominal as well, and (f_h ; dq) alone is no passive port when M_n < M.
+    """
+    tick = np.column_stack([_tick_with_hand(loop, k_h, unit) for unit in np.eye(5)])
+    return float(np.log(np.max(np.abs(np.linalg.eigvals(tick)))) / loop.T)
+
+
+def _tick_with_hand(loop: Loop, k_h: float, state: Array) -> Array:
+    """One tick of q, dq, the last tick's q, e and v_n: the implicit midpoint of SPEC.md section 1, then the mass by
+    backward Euler in its substeps."""
+    q, dq, q_before, e, v_n = state
+    T, K_P, alpha, f_h = loop.T, loop.K_P, loop.alpha, -k_h * q
+    sensed = (q - q_before) / T
+    inertia = 2.0 * loop.M_n / T
+    damping = loop.D_n + alpha * (1.0 + K_P * T / 2.0)
+    v_m = (inertia * v_n + f_h + alpha * (sensed + K_P * T * sensed / 2.0 - K_P * e)) / (inertia + damping)
+    y = (v_m - sensed) + K_P * (e + T * (v_m - sensed) / 2.0)
+    q_n = q + e + T * v_m
+    q_after = q
+    substeps = max(1, round(T / loop.substep))
+    for _ in range(substeps):
+        dq += (loop.K * y + f_h) / loop.M * T / substeps
+        q_after += dq * T / substeps
+    return np.array([q_after, dq, q, q_n - q_after, 2.0 * v_m - v_n])

@@ -1,0 +1,35 @@
+"""Scenario arm_delay on the built FMUs: every verdict is a test."""
+
+from typing import Any
+
+import pytest
+
+from exo.experiment import Experiment
+
+from conftest import verdict_ids
+
+SCENARIO = "arm_delay"
+
+
+@pytest.mark.parametrize("metric", verdict_ids(SCENARIO))
+def test_verdict_does_not_fail(metric: str, results: dict[str, Any]) -> None:
+    result = results[metric]
+    assert result.verdict != "fail", f"{result.value:.6g} {result.unit}, expected {result.expectation()}"
+
+
+def test_the_delayed_torque_is_the_last_tick_s_and_starts_at_zero(experiment: Experiment) -> None:
+    late, direct = (experiment.recordings[f"sine_{c}"] for c in ("one_sample_delay", "zero_delay"))
+    for i in (1, 2, 3):
+        name = f"[{i}]"
+        assert late["plant.tau_a" + name][0] == 0.0
+        assert (late["plant.tau_a" + name][1:] == late["controller.tau_a" + name][:-1]).all()
+        assert (direct["plant.tau_a" + name] == direct["controller.tau_a" + name]).all()
+    assert not (late["plant.p[1]"] == direct["plant.p[1]"]).all()
+
+
+def test_exchanging_at_once_equals_one_sample_of_delay_bit_for_bit(experiment: Experiment) -> None:
+    # f_h is a plan and reaches both directly, so the torque is the only connection whose lateness shows.
+    for kind in ("sine", "press"):
+        at_once, delayed = (experiment.recordings[f"{kind}_{c}"] for c in ("exchange_at_once", "one_sample_delay"))
+        for i in (1, 2, 3):
+            assert (at_once[f"plant.q_joint[{i}]"] == delayed[f"plant.q_joint[{i}]"]).all()
