@@ -48,7 +48,7 @@ def draw(*, figure: Figure, recordings: Mapping[str, Recording], path: Path) -> 
         else:
             _panels(canvas, figure, recordings)
         canvas.suptitle(figure.title, fontsize=11)
-        canvas.savefig(path, metadata={"Software": None})
+        canvas.savefig(path, metadata={"Software": None}, bbox_inches="tight")
 
 
 def _panels(canvas: Canvas, figure: Figure, recordings: Mapping[str, Recording]) -> None:
