@@ -1,6 +1,6 @@
 //! N axes under one ledger.
 
-use crate::{Axis, Gains, Ledger, ParameterError, Settings, axis};
+use crate::{Axis, Gains, Ledger, ParameterError, Real, Settings, axis};
 use nalgebra::SVector;
 
 /// The law for N axes: N = 1 is the testbed, N = 3 a task space with diagonal gains.
@@ -27,17 +27,17 @@ pub struct Proposal<const N: usize> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tick<const N: usize> {
     /// Force on the robot, N: s·sat(K y), held until the next tick.
-    pub f: SVector<f64, N>,
+    pub f: SVector<Real, N>,
     /// K y before any limit, N.
-    pub f_demand: SVector<f64, N>,
+    pub f_demand: SVector<Real, N>,
     /// Nominal position q + e_nr, m.
-    pub q_n: SVector<f64, N>,
+    pub q_n: SVector<Real, N>,
     /// Nominal velocity, m/s.
-    pub dq_n: SVector<f64, N>,
+    pub dq_n: SVector<Real, N>,
     /// q_n − q after the slip, m.
-    pub e_nr: SVector<f64, N>,
+    pub e_nr: SVector<Real, N>,
     /// The robot's velocity as the law used it, m/s.
-    pub dq: SVector<f64, N>,
+    pub dq: SVector<Real, N>,
     /// Whether any axis got less than it asked for.
     pub saturated: bool,
     /// Whether the motion since the last tick exceeded v_max or a_max, to which the passivity argument is restricted.
@@ -46,7 +46,7 @@ pub struct Tick<const N: usize> {
     pub engaged: bool,
     /// Energy (K/alpha) f_h v_m T that the human's port brings in the sample that begins, J: for a caller who keeps a
     /// [`Ledger`] of its own, where the force works on other coordinates than q. Not finite for alpha = 0.
-    pub supplied: f64,
+    pub supplied: Real,
 }
 
 impl<const N: usize> Admittance<N> {
@@ -79,7 +79,7 @@ impl<const N: usize> Admittance<N> {
     }
 
     /// What the axes ask for at a tick with positions `q` (m) and human forces `f_h` (N) along the axes.
-    pub fn propose(&self, q: &SVector<f64, N>, f_h: &SVector<f64, N>) -> Proposal<N> {
+    pub fn propose(&self, q: &SVector<Real, N>, f_h: &SVector<Real, N>) -> Proposal<N> {
         let axes = self.axes.zip_zip_map(q, f_h, |axis, q, f_h| {
             let axis = if self.engaged {
                 axis
@@ -104,7 +104,7 @@ impl<const N: usize> Admittance<N> {
     /// With s = 1 the energy statements of the laws hold as they are. A factor below 1 is a limit that the spring does not
     /// know of: while it lasts, the robot may stretch the spring for less work than the spring stores, under every law.
     /// The [`Ledger`] counts it; `passive_bounded` keeps it within ½ f_max²/(K K_P) for each stretch.
-    pub fn commit(&mut self, proposal: Proposal<N>, s: f64) -> Tick<N> {
+    pub fn commit(&mut self, proposal: Proposal<N>, s: Real) -> Tick<N> {
         let s = if s > 0.0 { s.min(1.0) } else { 0.0 };
         let Proposal { axes, ledger } = proposal;
         let done = axes.map(|axis| axis.commit(s, &self.settings));
@@ -128,14 +128,14 @@ impl<const N: usize> Admittance<N> {
     }
 
     /// One tick without any limit but f_max: [`propose`](Self::propose), then [`commit`](Self::commit) with s = 1.
-    pub fn step(&mut self, q: &SVector<f64, N>, f_h: &SVector<f64, N>) -> Tick<N> {
+    pub fn step(&mut self, q: &SVector<Real, N>, f_h: &SVector<Real, N>) -> Tick<N> {
         let proposal = self.propose(q, f_h);
         self.commit(proposal, 1.0)
     }
 
     /// One tick out of the loop at positions `q` (m): no force, q_n = q, v_n = 0. The energy that was stored is given up;
     /// the next [`step`](Self::step) engages anew.
-    pub fn rest(&mut self, q: &SVector<f64, N>) -> Tick<N> {
+    pub fn rest(&mut self, q: &SVector<Real, N>) -> Tick<N> {
         let zeros = SVector::zeros();
         self.axes.zip_apply(q, |axis, q| *axis = axis.engaged_at(q));
         self.ledger = self.ledger.settled(0.0, q).opened(&zeros, 0.0);
@@ -162,7 +162,7 @@ impl<const N: usize> Admittance<N> {
 
 impl<const N: usize> Proposal<N> {
     /// The force that the axes ask for within ±f_max, N: what the caller maps to its actuators.
-    pub fn f(&self) -> SVector<f64, N> {
+    pub fn f(&self) -> SVector<Real, N> {
         self.axes.map(|axis| axis.f())
     }
 }

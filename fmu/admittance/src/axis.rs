@@ -1,7 +1,8 @@
 //! One axis: slip, midpoint, clamp, reset.
 
 use crate::midpoint::{self, Midpoint, Sample};
-use crate::{Gains, Law, Motion, Settings, floored, retune, sat, storage};
+use crate::real::{self, floored, sat};
+use crate::{Gains, Law, Motion, Real, Settings, retune, storage};
 
 /// One axis of the law between two ticks.
 ///
@@ -11,15 +12,15 @@ use crate::{Gains, Law, Motion, Settings, floored, retune, sat, storage};
 pub struct Axis {
     gains: Gains,
     wanted: Gains,
-    q_n: f64,
-    v_n: f64,
+    q_n: Real,
+    v_n: Real,
     motion: Motion,
 }
 
 impl Axis {
     /// Engaged at the position `q` (m): q_n = q, v_n = 0, nothing known of the motion yet. The caller has checked the
     /// gains.
-    pub fn new(gains: Gains, q: f64) -> Self {
+    pub fn new(gains: Gains, q: Real) -> Self {
         Self {
             gains,
             wanted: gains,
@@ -31,7 +32,7 @@ impl Axis {
 
     /// Engaged anew at the position `q` (m), with the gains last wanted.
     #[must_use]
-    pub fn engaged_at(self, q: f64) -> Self {
+    pub fn engaged_at(self, q: Real) -> Self {
         Self::new(self.wanted, q)
     }
 
@@ -43,7 +44,7 @@ impl Axis {
 
     /// What the axis asks for at a tick with position `q` (m) and human force `f_h` (N): gains that are wanted take
     /// over, the spring slips, nominal and coupling are solved together.
-    pub fn propose(self, q: f64, f_h: f64, settings: &Settings) -> Proposal {
+    pub fn propose(self, q: Real, f_h: Real, settings: &Settings) -> Proposal {
         let gains = self.wanted;
         let motion = self.motion.sensed(q, settings);
         let (e, v_n) =
@@ -66,7 +67,7 @@ impl Axis {
 }
 
 /// Under `passive_bounded`, |K K_P e| ≤ f_max: beyond it the spring slips, and q_n with it.
-fn slipped(law: Law, gains: &Gains, e: f64) -> f64 {
+fn slipped(law: Law, gains: &Gains, e: Real) -> Real {
     match law {
         Law::PassiveBounded => sat(e, gains.f_max / (gains.K * gains.K_P)),
         _ => e,
@@ -78,7 +79,7 @@ fn slipped(law: Law, gains: &Gains, e: f64) -> f64 {
 pub struct Proposal {
     gains: Gains,
     motion: Motion,
-    q: f64,
+    q: Real,
     sample: Sample,
     wish: Midpoint,
 }
@@ -89,24 +90,24 @@ pub struct Committed {
     /// The axis until the next tick.
     pub axis: Axis,
     /// Force on the robot, N.
-    pub f: f64,
+    pub f: Real,
     /// Energy (K/alpha) f_h v_m T that the human's port brings in the sample that begins, J. Not finite for alpha = 0.
-    pub supplied: f64,
+    pub supplied: Real,
 }
 
 impl Proposal {
     /// e_nr = q_n − q at this tick, after the slip, m.
-    pub fn e_nr(&self) -> f64 {
+    pub fn e_nr(&self) -> Real {
         self.sample.e
     }
 
     /// Nominal position at this tick, m.
-    pub fn q_n(&self) -> f64 {
+    pub fn q_n(&self) -> Real {
         self.q + self.sample.e
     }
 
     /// Nominal velocity at this tick, m/s.
-    pub fn dq_n(&self) -> f64 {
+    pub fn dq_n(&self) -> Real {
         self.sample.v_n
     }
 
@@ -116,17 +117,17 @@ impl Proposal {
     }
 
     /// K y before any limit, N.
-    pub fn f_demand(&self) -> f64 {
+    pub fn f_demand(&self) -> Real {
         self.gains.K * self.wish.y
     }
 
     /// K y within ±f_max, N.
-    pub fn f(&self) -> f64 {
+    pub fn f(&self) -> Real {
         sat(self.f_demand(), self.gains.f_max)
     }
 
     /// Energy stored at this tick, J. Not finite for alpha = 0.
-    pub fn stored(&self, settings: &Settings) -> f64 {
+    pub fn stored(&self, settings: &Settings) -> Real {
         storage::stored(
             settings.law,
             &self.gains,
@@ -137,12 +138,12 @@ impl Proposal {
     }
 
     /// Whether f_max or the factor `s` leaves less than the demand.
-    pub fn is_limited(&self, s: f64) -> bool {
-        libm::fabs(self.f_demand()) > self.gains.f_max || s < 1.0
+    pub fn is_limited(&self, s: Real) -> bool {
+        real::abs(self.f_demand()) > self.gains.f_max || s < 1.0
     }
 
     /// The nominal moves on, while the robot gets s·sat(K y): `s` in [0, 1] is what the caller's actuators leave.
-    pub fn commit(self, s: f64, settings: &Settings) -> Committed {
+    pub fn commit(self, s: Real, settings: &Settings) -> Committed {
         let (gains, sample) = (&self.gains, &self.sample);
         let (alpha, T) = (settings.reaction(), settings.T);
         let f = s * self.f();
@@ -177,6 +178,6 @@ impl Proposal {
 }
 
 /// The reset: v_b in place of v where it holds no more energy.
-fn slower(v: f64, v_b: f64) -> f64 {
+fn slower(v: Real, v_b: Real) -> Real {
     if v_b * v_b <= v * v { v_b } else { v }
 }

@@ -12,7 +12,7 @@
 //!
 //! With alpha = 0 there is no such port and no storage: [`Ledger::is_defined`] says so, and all values are 0.
 
-use crate::Settings;
+use crate::{Real, Settings};
 use nalgebra::SVector;
 
 /// The ledger of N axes with one tank.
@@ -21,14 +21,14 @@ use nalgebra::SVector;
 pub struct Ledger<const N: usize> {
     defined: bool,
     delayed: bool,
-    E_0: f64,
-    H: f64,
-    G: f64,
-    tank: f64,
-    q: SVector<f64, N>,
-    commanded: SVector<f64, N>,
-    acting: SVector<f64, N>,
-    supplied: f64,
+    E_0: Real,
+    H: Real,
+    G: Real,
+    tank: Real,
+    q: SVector<Real, N>,
+    commanded: SVector<Real, N>,
+    acting: SVector<Real, N>,
+    supplied: Real,
 }
 
 impl<const N: usize> Ledger<N> {
@@ -51,7 +51,7 @@ impl<const N: usize> Ledger<N> {
 
     /// Settles the sample that ends now, with the energy `H` (J) that the law stores now and the position `q` (m).
     #[must_use]
-    pub fn settled(self, H: f64, q: &SVector<f64, N>) -> Self {
+    pub fn settled(self, H: Real, q: &SVector<Real, N>) -> Self {
         if !self.defined {
             return self;
         }
@@ -68,7 +68,7 @@ impl<const N: usize> Ledger<N> {
     /// Opens the sample that begins now: the force `f` (N) on the robot that this tick says, and the energy
     /// (K/alpha) f_h v_m T (J) that the human's port brings.
     #[must_use]
-    pub fn opened(self, f: &SVector<f64, N>, supplied: f64) -> Self {
+    pub fn opened(self, f: &SVector<Real, N>, supplied: Real) -> Self {
         if !self.defined {
             return self;
         }
@@ -87,17 +87,17 @@ impl<const N: usize> Ledger<N> {
     }
 
     /// H, stored at the last tick, J.
-    pub fn H(&self) -> f64 {
+    pub fn H(&self) -> Real {
         self.H
     }
 
     /// G, created up to the last tick, J; negative: dissipated.
-    pub fn G(&self) -> f64 {
+    pub fn G(&self) -> Real {
         self.G
     }
 
     /// E, what the tank holds at the last tick, J.
-    pub fn tank(&self) -> f64 {
+    pub fn tank(&self) -> Real {
         self.tank
     }
 }

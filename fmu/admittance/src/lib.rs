@@ -49,6 +49,7 @@
 //! |---|---|
 //! | [`law`] | which reaction the nominal feels: the laws by number and name |
 //! | [`parameters`] | [`Settings`], [`Gains`], their checks and the error that names the culprit |
+//! | [`real`] | the number: double or single precision, and its functions |
 //! | [`motion`] | backward difference, low pass, the bounds of the passivity argument |
 //! | [`midpoint`] | the implicit midpoint rule: the law's arithmetic |
 //! | [`axis`] | one axis: slip, midpoint, clamp, reset |
@@ -74,6 +75,7 @@ pub mod ledger;
 pub mod midpoint;
 pub mod motion;
 pub mod parameters;
+pub mod real;
 pub mod retune;
 pub mod storage;
 
@@ -83,20 +85,4 @@ pub use law::Law;
 pub use ledger::Ledger;
 pub use motion::Motion;
 pub use parameters::{Gains, ParameterError, Settings};
-
-/// sat(x): x limited to ±`bound`; NaN stays NaN.
-pub(crate) fn sat(x: f64, bound: f64) -> f64 {
-    if x > bound {
-        bound
-    } else if x < -bound {
-        -bound
-    } else {
-        x
-    }
-}
-
-/// Zero in place of a decaying state that would otherwise reach the denormal numbers, where arithmetic is slow. It only
-/// ever lowers the energy that the state holds.
-pub(crate) fn floored(x: f64) -> f64 {
-    if libm::fabs(x) < 1e-150 { 0.0 } else { x }
-}
+pub use real::Real;

@@ -8,28 +8,28 @@
 //! y  = w + K_P (e + T w/2)                            eq:dob_input, tau = K y
 //! ```
 
-use crate::Gains;
+use crate::{Gains, Real};
 
 /// What one sample of the law starts from.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sample {
     /// Position error q_n − q, m.
-    pub e: f64,
+    pub e: Real,
     /// Nominal velocity, m/s.
-    pub v_n: f64,
+    pub v_n: Real,
     /// The robot's velocity, m/s.
-    pub dq: f64,
+    pub dq: Real,
     /// Force of the human on the handle, N.
-    pub f_h: f64,
+    pub f_h: Real,
 }
 
 /// What one sample of the law arrives at.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Midpoint {
     /// Nominal velocity at the middle of the sample, m/s.
-    pub v_m: f64,
+    pub v_m: Real,
     /// PI output at the middle of the sample, m/s.
-    pub y: f64,
+    pub y: Real,
 }
 
 /// Nominal and coupling solved together: the nominal feels alpha·y. With alpha = 0 it feels nothing.
@@ -37,7 +37,7 @@ pub struct Midpoint {
 /// c = alpha(1 + K_P T/2)
 /// v_m = (2 M_n v_n/T + f_h + alpha(dq + K_P T dq/2 − K_P e)) / (2 M_n/T + D_n + c)
 /// y = (v_m − dq) + K_P(e + T(v_m − dq)/2)
-pub fn coupled(gains: &Gains, alpha: f64, T: f64, sample: &Sample) -> Midpoint {
+pub fn coupled(gains: &Gains, alpha: Real, T: Real, sample: &Sample) -> Midpoint {
     let Gains { M_n, D_n, K_P, .. } = *gains;
     let Sample { e, v_n, dq, f_h } = *sample;
     let c = alpha * (1.0 + K_P * T / 2.0);
@@ -50,7 +50,7 @@ pub fn coupled(gains: &Gains, alpha: f64, T: f64, sample: &Sample) -> Midpoint {
 /// The nominal under a given reaction alpha·y_s, y_s being what the limits left of y (m/s). Returns v_m (m/s).
 ///
 /// v_m = (2 M_n v_n/T + f_h − alpha y_s) / (2 M_n/T + D_n)
-pub fn driven(gains: &Gains, alpha: f64, T: f64, sample: &Sample, y_s: f64) -> f64 {
+pub fn driven(gains: &Gains, alpha: Real, T: Real, sample: &Sample, y_s: Real) -> Real {
     let Gains { M_n, D_n, .. } = *gains;
     let Sample { v_n, f_h, .. } = *sample;
     (2.0 * M_n * v_n / T + f_h - alpha * y_s) / (2.0 * M_n / T + D_n)
@@ -60,7 +60,7 @@ pub fn driven(gains: &Gains, alpha: f64, T: f64, sample: &Sample, y_s: f64) -> f
 /// of the robot any faster than that.
 ///
 /// v_b = (y_s − K_P e)/(1 + K_P T/2) + dq
-pub fn at_the_bound(gains: &Gains, T: f64, sample: &Sample, y_s: f64) -> f64 {
+pub fn at_the_bound(gains: &Gains, T: Real, sample: &Sample, y_s: Real) -> Real {
     let Sample { e, dq, .. } = *sample;
     (y_s - gains.K_P * e) / (1.0 + gains.K_P * T / 2.0) + dq
 }

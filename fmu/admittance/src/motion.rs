@@ -1,7 +1,7 @@
 //! What the law makes of the sensed positions.
 
-use crate::{Settings, floored};
-use core::f64::consts::TAU;
+use crate::real::{self, consts::TAU, floored};
+use crate::{Real, Settings};
 
 /// The robot's velocity on one axis, from positions alone.
 ///
@@ -10,16 +10,16 @@ use core::f64::consts::TAU;
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Motion {
-    q: Option<f64>,
-    difference: Option<f64>,
-    dq: f64,
+    q: Option<Real>,
+    difference: Option<Real>,
+    dq: Real,
     outside_bounds: bool,
 }
 
 impl Motion {
     /// The motion after `q` (m) has been sensed at a tick.
     #[must_use]
-    pub fn sensed(self, q: f64, settings: &Settings) -> Self {
+    pub fn sensed(self, q: Real, settings: &Settings) -> Self {
         let Some(last) = self.q else {
             return Self {
                 q: Some(q),
@@ -36,13 +36,13 @@ impl Motion {
             } else {
                 difference
             },
-            outside_bounds: libm::fabs(difference) > settings.v_max
-                || libm::fabs(change) > settings.a_max * settings.T,
+            outside_bounds: real::abs(difference) > settings.v_max
+                || real::abs(change) > settings.a_max * settings.T,
         }
     }
 
     /// The velocity that the law uses, m/s.
-    pub fn dq(&self) -> f64 {
+    pub fn dq(&self) -> Real {
         self.dq
     }
 
@@ -54,6 +54,6 @@ impl Motion {
 }
 
 /// 1 − exp(−2π f_c T): the exact sampled first-order low pass.
-fn weight(settings: &Settings) -> f64 {
-    -libm::expm1(-TAU * settings.dq_cutoff * settings.T)
+fn weight(settings: &Settings) -> Real {
+    -real::exp_m1(-TAU * settings.dq_cutoff * settings.T)
 }

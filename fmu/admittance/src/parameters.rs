@@ -1,6 +1,6 @@
 //! Parameters, checked when a law is built.
 
-use crate::Law;
+use crate::{Law, Real};
 use core::fmt;
 
 /// What all axes share and what stays fixed during a run.
@@ -11,20 +11,20 @@ pub struct Settings {
     pub law: Law,
     /// Damper between y (a velocity) and the reaction on the nominal (a force), N·s/m, ≥ 0. The paper adds K⁻¹tau_a to
     /// a force (eq:obs_dyn), which hides a unit damper: 1 is the paper. [`Law::Standard`] has no reaction whatever it is.
-    pub alpha: f64,
+    pub alpha: Real,
     /// Sample period, s.
-    pub T: f64,
+    pub T: Real,
     /// Whether the force of a tick reaches the robot one sample later (the first one being 0). It changes no force: it
     /// tells the ledger in which interval a force did its work.
     pub delayed: bool,
     /// Corner frequency of a first-order low pass on dq, Hz; 0 = off.
-    pub dq_cutoff: f64,
+    pub dq_cutoff: Real,
     /// Energy with which the tank starts and above which it does not fill, J.
-    pub E_0: f64,
+    pub E_0: Real,
     /// Largest speed for which the passivity argument is made, m/s.
-    pub v_max: f64,
+    pub v_max: Real,
     /// Largest acceleration for which the passivity argument is made, m/s².
-    pub a_max: f64,
+    pub a_max: Real,
 }
 
 impl Default for Settings {
@@ -48,15 +48,15 @@ impl Default for Settings {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Gains {
     /// Nominal mass, kg, > 0.
-    pub M_n: f64,
+    pub M_n: Real,
     /// Nominal damping, N·s/m, ≥ 0.
-    pub D_n: f64,
+    pub D_n: Real,
     /// Control gain, N·s/m, > 0.
-    pub K: f64,
+    pub K: Real,
     /// Ratio of the coupling's spring to its damper, 1/s, > 0.
-    pub K_P: f64,
+    pub K_P: Real,
     /// Largest force of this axis on the robot, N, > 0. Infinite where nothing but the caller's factor limits.
-    pub f_max: f64,
+    pub f_max: Real,
 }
 
 /// A parameter that a law cannot be built with.
@@ -69,7 +69,7 @@ pub enum ParameterError {
         /// The axis it belongs to, from 1; `None` if all share it or there is one axis only.
         axis: Option<usize>,
         /// The value.
-        value: f64,
+        value: Real,
         /// The range.
         expected: &'static str,
     },
@@ -131,16 +131,29 @@ fn offered(f: &mut fmt::Formatter<'_>) -> fmt::Result {
 }
 
 /// A range: what it is called and whether a value lies in it. NaN lies in none.
-type Range = (&'static str, fn(f64) -> bool);
-const POSITIVE: Range = ("a finite value greater than 0", |x| {
+pub type Range = (&'static str, fn(Real) -> bool);
+/// Any finite value.
+pub const FINITE: Range = ("a finite value", Real::is_finite);
+/// Greater than 0, finite.
+pub const POSITIVE: Range = ("a finite value greater than 0", |x| {
     x > 0.0 && x.is_finite()
 });
-const NOT_NEGATIVE: Range = ("a finite value not less than 0", |x| {
+/// Not less than 0, finite.
+pub const NOT_NEGATIVE: Range = ("a finite value not less than 0", |x| {
     x >= 0.0 && x.is_finite()
 });
-const LIMIT: Range = ("a value greater than 0", |x| x > 0.0);
+/// Greater than 0, also infinite: a limit that does not limit.
+pub const LIMIT: Range = ("a value greater than 0", |x| x > 0.0);
 
-fn check(axis: Option<usize>, list: &[(&'static str, f64, Range)]) -> Result<(), ParameterError> {
+/// Whether every value lies in its range: the name, value and range of the first that does not. `axis`, from 1, is for the
+/// message.
+///
+/// # Errors
+/// The first value out of its range.
+pub fn check(
+    axis: Option<usize>,
+    list: &[(&'static str, Real, Range)],
+) -> Result<(), ParameterError> {
     for &(name, value, (expected, contains)) in list {
         if !contains(value) {
             return Err(ParameterError::OutOfRange {
@@ -177,7 +190,7 @@ impl Settings {
     }
 
     /// The damper through which the nominal feels y, N·s/m: alpha, or 0 under [`Law::Standard`].
-    pub fn reaction(&self) -> f64 {
+    pub fn reaction(&self) -> Real {
         if self.law == Law::Standard {
             0.0
         } else {

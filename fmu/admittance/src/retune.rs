@@ -9,11 +9,12 @@
 //! | f_max raised under `passive_applied` | Φ(e) at most | a spring beyond its limit gains nothing |
 //! | D_n, or f_max otherwise | all | neither stores; the next slip sees the new bound |
 
+use crate::real::{self, sat};
 use crate::storage::{extension, spring};
-use crate::{Gains, Law, sat};
+use crate::{Gains, Law, Real};
 
 /// Position error (m) and nominal velocity (m/s) with which the gains `to` take over from the gains `from`.
-pub fn taken_over(law: Law, from: &Gains, to: &Gains, e: f64, v_n: f64) -> (f64, f64) {
+pub fn taken_over(law: Law, from: &Gains, to: &Gains, e: Real, v_n: Real) -> (Real, Real) {
     if from == to {
         return (e, v_n);
     }
@@ -21,5 +22,5 @@ pub fn taken_over(law: Law, from: &Gains, to: &Gains, e: f64, v_n: f64) -> (f64,
     let mass_ratio = from.K * from.M_n / (to.K * to.M_n);
     let e_kept = e * spring_ratio.min(1.0);
     let e_most = extension(law, to, spring(law, from, e));
-    (sat(e_kept, e_most), v_n * libm::sqrt(mass_ratio.min(1.0)))
+    (sat(e_kept, e_most), v_n * real::sqrt(mass_ratio.min(1.0)))
 }

@@ -5,14 +5,14 @@
 //! Under [`Law::PassiveApplied`] the spring's force is limited, and its energy is Φ(e) = ∫₀ᵉ sat(K K_P s) ds: with it
 //! (sat(K K_P e + K de) − sat(K K_P e))·de ≥ 0 makes the law passive, which ½ K K_P e² does not.
 
-use crate::{Gains, Law};
+use crate::{Gains, Law, Real, real};
 
 /// The spring's energy at extension `e` (m), J.
 ///
 /// ½ K K_P e², and from |e| = f_max/(K K_P) on, under `passive_applied`, f_max(|e| − f_max/(2 K K_P)).
-pub fn spring(law: Law, gains: &Gains, e: f64) -> f64 {
+pub fn spring(law: Law, gains: &Gains, e: Real) -> Real {
     let k = gains.K * gains.K_P;
-    let x = libm::fabs(e);
+    let x = real::abs(e);
     if law == Law::PassiveApplied && k * x > gains.f_max {
         gains.f_max * (x - gains.f_max / (2.0 * k))
     } else {
@@ -21,9 +21,9 @@ pub fn spring(law: Law, gains: &Gains, e: f64) -> f64 {
 }
 
 /// The extension |e| (m) at which the spring holds `energy` (J): the inverse of [`spring`].
-pub fn extension(law: Law, gains: &Gains, energy: f64) -> f64 {
+pub fn extension(law: Law, gains: &Gains, energy: Real) -> Real {
     let k = gains.K * gains.K_P;
-    let quadratic = libm::sqrt(2.0 * energy / k);
+    let quadratic = real::sqrt(2.0 * energy / k);
     if law == Law::PassiveApplied && k * quadratic > gains.f_max {
         energy / gains.f_max + gains.f_max / (2.0 * k)
     } else {
@@ -32,6 +32,6 @@ pub fn extension(law: Law, gains: &Gains, energy: f64) -> f64 {
 }
 
 /// H, J, at position error `e` (m) and nominal velocity `v_n` (m/s). Not finite for alpha = 0.
-pub fn stored(law: Law, gains: &Gains, alpha: f64, e: f64, v_n: f64) -> f64 {
+pub fn stored(law: Law, gains: &Gains, alpha: Real, e: Real, v_n: Real) -> Real {
     gains.K * (0.5 * gains.M_n * v_n * v_n / alpha) + spring(law, gains, e)
 }

@@ -19,11 +19,11 @@
 //! ```
 //!
 //! A tick, with the equations of the paper's task space:
-//! 1. p and J from q, f_h turned into the base frame if it is sensed in another one: [`kinematics`].
+//! 1. p and J from q, f_h turned into the base frame if it is sensed in another one: [`arm_law::kinematics`].
 //! 2. On each axis Lambda_n ddp_n + D_n dp_n = f_h − alpha y, y = de_nr + K_P e_nr, f_a = K y, near a singularity with
-//!    more damping: [`admittance`], [`singularity`].
-//! 3. tau_a = Jᵀ f_a, within ±tau_max: [`limits`]. What the limits leave is what the nominal of laws 3 and 4 feels.
-//! 4. The ledger counts the work that tau_a does at the joints: [`task_space`].
+//!    more damping: [`admittance`], [`arm_law::singularity`].
+//! 3. tau_a = Jᵀ f_a, within ±tau_max: [`arm_law::limits`]. What the limits leave is what the nominal of laws 3 and 4 feels.
+//! 4. The ledger counts the work that tau_a does at the joints: [`arm_law::task_space`].
 //!
 //! | variable | symbol | unit | what |
 //! |---|---|---|---|
@@ -36,10 +36,6 @@
 //!
 //! | module | what |
 //! |---|---|
-//! | [`kinematics`] | position, Jacobian, smallest singular value and frame of link 3 |
-//! | [`limits`] | what the joints deliver of a torque: one common factor, or each joint clipped |
-//! | [`singularity`] | the damping that slows before a singularity |
-//! | [`task_space`] | a tick: the law at the handle, its torques and its ledger at the joints |
 //! | [`model`] | the variables, start, step, refusals |
 //! | [`rows`] | one row per variable: name, unit, bounds, description |
 
@@ -49,11 +45,7 @@
     reason = "fields are spelt like the paper's symbols and the interface: Lambda_n, K_P, J, T"
 )]
 
-pub mod kinematics;
-pub mod limits;
 pub mod model;
 pub mod rows;
-pub mod singularity;
-pub mod task_space;
 
 pub use model::ArmController;

@@ -1,10 +1,10 @@
 //! The variables and what a step does.
 
-use crate::kinematics::{Kinematics, Pose};
-use crate::limits::{Limits, TorqueLimiting};
-use crate::singularity::Singularity;
-use crate::task_space::{Outcome, TaskSpace};
 use admittance::{Gains, Law, ParameterError, Settings};
+use arm_law::kinematics::{Kinematics, Pose};
+use arm_law::limits::{Limits, TorqueLimiting};
+use arm_law::singularity::Singularity;
+use arm_law::task_space::{Outcome, TaskSpace};
 use export::{Log, Model, Refusal, Step, Ticks};
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
@@ -139,8 +139,8 @@ impl Model for ArmController {
         let settings = self.settings()?;
         let limits = self.limits(settings.law)?;
         let gains = self.gains(settings.law)?;
-        self.kinematics.check().map_err(Refusal)?;
-        self.singularity.check().map_err(Refusal)?;
+        self.kinematics.check().map_err(refusal)?;
+        self.singularity.check().map_err(refusal)?;
         if ![BASE, SENSOR].contains(&self.ft.frame) {
             let frame = self.ft.frame;
             return Err(Refusal(format!(
@@ -218,7 +218,12 @@ impl ArmController {
     /// Under `passive_applied` and `passive_bounded` the nominal feels what the robot gets, as one share of what it was
     /// to get. No share describes joints that are clipped one by one.
     fn limits(&self, law: Law) -> Result<Limits, Refusal> {
-        let limiting = TorqueLimiting::try_from(self.torque_limiting).map_err(Refusal)?;
+        let limiting = TorqueLimiting::from_number(self.torque_limiting).ok_or_else(|| {
+            let number = self.torque_limiting;
+            Refusal(format!(
+                "torque_limiting = {number}: expected 1 (scale), 2 (clip)"
+            ))
+        })?;
         if limiting == TorqueLimiting::Clip && !matches!(law, Law::Standard | Law::Passive) {
             return Err(Refusal(format!(
                 "torque_limiting = {} (clip): expected 1 (scale) under law = {} ({}), whose nominal feels what the robot \
@@ -228,17 +233,12 @@ impl ArmController {
                 law.name()
             )));
         }
-        for (i, tau_max) in (1..).zip(self.tau_max) {
-            if !(tau_max > 0.0 && tau_max.is_finite()) {
-                return Err(Refusal(format!(
-                    "tau_max[{i}] = {tau_max}: expected a finite value greater than 0"
-                )));
-            }
-        }
-        Ok(Limits {
+        let limits = Limits {
             tau_max: self.tau_max.into(),
             limiting,
-        })
+        };
+        limits.check().map_err(refusal)?;
+        Ok(limits)
     }
 
     /// f_max belongs to `passive_bounded` alone: the other laws ask for what they ask for and live on the joints' limits.

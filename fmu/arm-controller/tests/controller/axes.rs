@@ -2,7 +2,7 @@
 
 use crate::{T, initialized, tick};
 use admittance::{Admittance, Gains, Law, Settings};
-use arm_controller::kinematics::Kinematics;
+use arm_law::kinematics::Kinematics;
 use nalgebra::{Vector1, Vector3};
 
 /// Joint angles (rad) and human force (N) at tick `k`: a slow motion about the start pose.

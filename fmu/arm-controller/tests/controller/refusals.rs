@@ -86,15 +86,15 @@ fn refusals_name_the_variable_the_value_and_the_range() {
         ),
         (
             |c| c.kinematics.A1 = -0.1,
-            "kinematics.A1 = -0.1: expected a value not less than 0".into(),
+            format!("kinematics.A1 = -0.1: {not_negative}"),
         ),
         (
             |c| c.kinematics.L1 = 0.0,
-            "kinematics.L1 = 0: expected a value greater than 0".into(),
+            format!("kinematics.L1 = 0: {positive}"),
         ),
         (
             |c| c.kinematics.handle_x = -0.36,
-            "kinematics.handle_x = -0.36: expected a value greater than 0".into(),
+            format!("kinematics.handle_x = -0.36: {positive}"),
         ),
         (
             |c| c.kinematics.handle_z = f64::NAN,

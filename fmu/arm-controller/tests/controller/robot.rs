@@ -2,7 +2,7 @@
 //! enough to make motions that a robot makes, with sticking, impacts and saturated joints.
 
 use crate::{ArmController, T, tick};
-use arm_controller::kinematics::Kinematics;
+use arm_law::kinematics::Kinematics;
 use nalgebra::Vector3;
 
 const SUBSTEPS: u32 = 10;

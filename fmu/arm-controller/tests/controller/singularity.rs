@@ -2,8 +2,8 @@
 
 use crate::robot::{Robot, close_the_loop};
 use crate::{T, initialized, tick};
-use arm_controller::kinematics::Kinematics;
-use arm_controller::singularity::Singularity;
+use arm_law::kinematics::Kinematics;
+use arm_law::singularity::Singularity;
 use nalgebra::Vector3;
 
 const FREE: Singularity = Singularity {

@@ -34,7 +34,7 @@ fn after_initialization_there_is_no_torque_and_the_nominal_stands_at_the_handle(
 }
 
 fn controller_kinematics(q: [f64; 3]) -> [f64; 3] {
-    arm_controller::kinematics::Kinematics::default()
+    arm_law::kinematics::Kinematics::default()
         .at(&q.into())
         .p
         .into()

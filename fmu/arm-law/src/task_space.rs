@@ -11,12 +11,12 @@
 use crate::kinematics::Pose;
 use crate::limits::{Limits, TorqueLimiting};
 use crate::singularity::Singularity;
-use admittance::{Admittance, Gains, Ledger, ParameterError, Settings, Tick};
+use admittance::{Admittance, Gains, Ledger, ParameterError, Real, Settings, Tick};
 use nalgebra::Vector3;
-use serde::{Deserialize, Serialize};
 
 /// The law between two ticks.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct TaskSpace {
     admittance: Admittance<3>,
     ledger: Ledger<3>,
@@ -32,11 +32,11 @@ pub struct Outcome {
     pub law: Tick<3>,
     /// Force at the handle that tau amounts to, base frame, N: J⁻ᵀ tau. Clipped where J cannot be inverted: what was asked
     /// for.
-    pub f_a: Vector3<f64>,
+    pub f_a: Vector3<Real>,
     /// Torques on the joints, N·m.
-    pub tau: Vector3<f64>,
+    pub tau: Vector3<Real>,
     /// Jᵀ K y before any limit, N·m.
-    pub tau_demand: Vector3<f64>,
+    pub tau_demand: Vector3<Real>,
     /// Whether a limit leaves less than tau_demand.
     pub saturated: bool,
     /// Whether the nominal is slowed before a singularity.
@@ -80,8 +80,8 @@ impl TaskSpace {
     pub fn step(
         &mut self,
         pose: &Pose,
-        q: &Vector3<f64>,
-        f_h: &Vector3<f64>,
+        q: &Vector3<Real>,
+        f_h: &Vector3<Real>,
     ) -> Result<Outcome, ParameterError> {
         let damping = self.singularity.damping(pose.sigma_min);
         self.admittance.tune(self.gains.map(|gains| Gains {
@@ -114,7 +114,7 @@ impl TaskSpace {
 
     /// One tick out of the loop: no torque, the nominal at the handle. The energy that was stored is given up; the next
     /// [`step`](Self::step) engages anew.
-    pub fn rest(&mut self, pose: &Pose, q: &Vector3<f64>) -> Outcome {
+    pub fn rest(&mut self, pose: &Pose, q: &Vector3<Real>) -> Outcome {
         let law = self.admittance.rest(&pose.p);
         self.count(q, &Vector3::zeros(), law.supplied);
         Outcome {
@@ -128,7 +128,7 @@ impl TaskSpace {
     }
 
     /// ΔG = ΔH + tau·Δq − (K/alpha) f_h v_m T of the sample that ends, and what the one that begins starts with.
-    fn count(&mut self, q: &Vector3<f64>, tau: &Vector3<f64>, supplied: f64) {
+    fn count(&mut self, q: &Vector3<Real>, tau: &Vector3<Real>, supplied: Real) {
         let H = self.admittance.ledger().H();
         self.ledger = self.ledger.settled(H, q).opened(tau, supplied);
     }

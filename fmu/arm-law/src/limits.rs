@@ -1,10 +1,12 @@
 //! What the joints deliver of the torque that they are asked for.
 
+use admittance::parameters::{POSITIVE, check};
+use admittance::{ParameterError, Real, real};
 use nalgebra::Vector3;
-use serde::{Deserialize, Serialize};
 
 /// How torques beyond ±tau_max are brought within.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[repr(i32)]
 pub enum TorqueLimiting {
     /// All joints by one factor s = min(1, tau_max_i/|tau_i|): the force at the handle keeps its direction.
@@ -14,10 +16,11 @@ pub enum TorqueLimiting {
 }
 
 /// The limits of the three joints.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Limits {
     /// Largest absolute torque of each joint, N·m, > 0.
-    pub tau_max: Vector3<f64>,
+    pub tau_max: Vector3<Real>,
     /// How they act.
     pub limiting: TorqueLimiting,
 }
@@ -26,31 +29,39 @@ pub struct Limits {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Delivered {
     /// Torques, N·m, within ±tau_max.
-    pub tau: Vector3<f64>,
+    pub tau: Vector3<Real>,
     /// Share of the force that this amounts to, in [0, 1]; 1 when clipped, which no share describes.
-    pub s: f64,
+    pub s: Real,
     /// Whether any joint delivers less than it was asked for.
     pub limited: bool,
 }
 
-impl TryFrom<i32> for TorqueLimiting {
-    type Error = String;
-
-    fn try_from(number: i32) -> Result<Self, String> {
+impl TorqueLimiting {
+    /// The one with this number, if there is one.
+    pub fn from_number(number: i32) -> Option<Self> {
         [Self::Scale, Self::Clip]
             .into_iter()
             .find(|limiting| *limiting as i32 == number)
-            .ok_or_else(|| format!("torque_limiting = {number}: expected 1 (scale), 2 (clip)"))
     }
 }
 
 impl Limits {
+    /// Whether these can be used.
+    ///
+    /// # Errors
+    /// The first limit out of its range.
+    pub fn check(&self) -> Result<(), ParameterError> {
+        (1..)
+            .zip(&self.tau_max)
+            .try_for_each(|(joint, tau_max)| check(Some(joint), &[("tau_max", *tau_max, POSITIVE)]))
+    }
+
     /// What is delivered of `tau` (N·m), which is finite.
-    pub fn deliver(&self, tau: &Vector3<f64>) -> Delivered {
-        let within = |tau: f64, tau_max: f64| tau.min(tau_max).max(-tau_max);
+    pub fn deliver(&self, tau: &Vector3<Real>) -> Delivered {
+        let within = |tau: Real, tau_max: Real| tau.min(tau_max).max(-tau_max);
         let s = tau
-            .zip_map(&self.tau_max, |tau, tau_max| tau_max / libm::fabs(tau))
-            .fold(1.0, f64::min);
+            .zip_map(&self.tau_max, |tau, tau_max| tau_max / real::abs(tau))
+            .fold(1.0, Real::min);
         match self.limiting {
             TorqueLimiting::Scale => Delivered {
                 tau: (tau * s).zip_map(&self.tau_max, within), // the product's rounding may exceed tau_max

@@ -15,17 +15,20 @@
 //! the arm straight for seconds to rest near 0.05 m/rad (a test), where the 400 N of f_max still bend the elbow against
 //! friction of 12 N·m.
 
-use serde::{Deserialize, Serialize};
+use admittance::parameters::{NOT_NEGATIVE, check};
+use admittance::{ParameterError, Real, real};
 
 /// Share of sigma_slow below which the damping grows no further.
-const LEAST_SHARE: f64 = 0.25;
+const LEAST_SHARE: Real = 0.25;
 
-/// Parameters `singularity.*`. What each is stands in its row ([`rows`](crate::rows)).
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[expect(missing_docs, reason = "a variable is described once, in its row")]
+/// When and how much the nominal is slowed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Singularity {
-    pub sigma_slow: f64,
-    pub D: f64,
+    /// sigma_min below which the nominal is damped more, m/rad; 0 = off.
+    pub sigma_slow: Real,
+    /// What scales the damping, N·s/m.
+    pub D: Real,
 }
 
 impl Default for Singularity {
@@ -41,31 +44,30 @@ impl Default for Singularity {
 
 impl Singularity {
     /// Whether the nominal is slowed at `sigma_min` (m/rad).
-    pub fn slows(&self, sigma_min: f64) -> bool {
+    pub fn slows(&self, sigma_min: Real) -> bool {
         sigma_min < self.sigma_slow && self.D > 0.0
     }
 
     /// Damping that the nominal gets on top of D_n at `sigma_min` (m/rad), N·s/m: 0 from sigma_slow on.
-    pub fn damping(&self, sigma_min: f64) -> f64 {
+    pub fn damping(&self, sigma_min: Real) -> Real {
         if !self.slows(sigma_min) {
             return 0.0;
         }
-        let ratio = 1.0 / libm::fmax(sigma_min / self.sigma_slow, LEAST_SHARE);
+        let ratio = 1.0 / real::max(sigma_min / self.sigma_slow, LEAST_SHARE);
         self.D * (ratio * ratio - 1.0)
     }
 
     /// Whether these can be used.
     ///
     /// # Errors
-    /// The first value out of its range: its name in the interface, its value and the range.
-    pub fn check(&self) -> Result<(), String> {
-        for (name, value) in [("sigma_slow", self.sigma_slow), ("D", self.D)] {
-            if !(value >= 0.0 && value.is_finite()) {
-                return Err(format!(
-                    "singularity.{name} = {value}: expected a finite value not less than 0"
-                ));
-            }
-        }
-        Ok(())
+    /// The first value out of its range.
+    pub fn check(&self) -> Result<(), ParameterError> {
+        check(
+            None,
+            &[
+                ("singularity.sigma_slow", self.sigma_slow, NOT_NEGATIVE),
+                ("singularity.D", self.D, NOT_NEGATIVE),
+            ],
+        )
     }
 }

@@ -4,30 +4,35 @@
 //! pitch about −y, so that positive pitch lifts. Link 3's frame has its origin on the elbow's axis, x along the link, z
 //! up when the link is level; the handle lies in its x-z plane.
 
+use admittance::parameters::{FINITE, NOT_NEGATIVE, POSITIVE, check};
+use admittance::{ParameterError, Real, real};
 use nalgebra::{Matrix3, Vector3};
-use serde::{Deserialize, Serialize};
 
-/// The lengths that place the handle, m. What each is stands in its row ([`rows`](crate::rows)).
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[expect(missing_docs, reason = "a variable is described once, in its row")]
+/// The lengths that place the handle, m.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Kinematics {
-    pub A1: f64,
-    pub L1: f64,
-    pub handle_x: f64,
-    pub handle_z: f64,
+    /// From the yaw axis forward to the shoulder's pitch axis.
+    pub A1: Real,
+    /// From the shoulder's pitch axis to the elbow's.
+    pub L1: Real,
+    /// Handle in link 3's frame: from the elbow's axis along the link.
+    pub handle_x: Real,
+    /// Handle in link 3's frame: across the link, upwards when it is level.
+    pub handle_z: Real,
 }
 
 /// The handle at some joint angles.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pose {
     /// Position p of the handle, base frame, m.
-    pub p: Vector3<f64>,
+    pub p: Vector3<Real>,
     /// J = ∂p/∂q, base frame, m/rad.
-    pub J: Matrix3<f64>,
+    pub J: Matrix3<Real>,
     /// Smallest singular value of J, m/rad: the least that the handle moves for a unit of joint motion.
-    pub sigma_min: f64,
+    pub sigma_min: Real,
     /// Link 3's axes in the base frame, as columns: turns a vector of link 3's frame into the base frame.
-    pub R: Matrix3<f64>,
+    pub R: Matrix3<Real>,
 }
 
 impl Default for Kinematics {
@@ -55,16 +60,16 @@ impl Kinematics {
     ///
     /// The singular values of J are |ϱ| (the handle on the yaw axis) and those of its pitch block, whose smaller one is
     /// |det|/σ_max with det = L₁(h_x sin q₃ + h_z cos q₃): no iteration, and exact where it matters, near zero.
-    pub fn at(&self, q: &Vector3<f64>) -> Pose {
+    pub fn at(&self, q: &Vector3<Real>) -> Pose {
         let Self {
             A1,
             L1,
             handle_x: h_x,
             handle_z: h_z,
         } = *self;
-        let (s_1, c_1) = libm::sincos(q[0]);
-        let (s_2, c_2) = libm::sincos(q[1]);
-        let (s_3, c_3) = libm::sincos(q[2]);
+        let (s_1, c_1) = real::sin_cos(q[0]);
+        let (s_2, c_2) = real::sin_cos(q[1]);
+        let (s_3, c_3) = real::sin_cos(q[2]);
         let (s_b, c_b) = (s_2 * c_3 + c_2 * s_3, c_2 * c_3 - s_2 * s_3);
 
         let (r_x, r_z) = (h_x * c_b - h_z * s_b, h_x * s_b + h_z * c_b);
@@ -79,9 +84,9 @@ impl Kinematics {
                  rho * c_1, -z * s_1, -r_z * s_1,
                  0.0,        x,        r_x,
             ),
-            sigma_min: libm::fmin(
-                libm::fabs(rho),
-                libm::fabs(det) / largest_singular_value([[-z, -r_z], [x, r_x]]),
+            sigma_min: real::min(
+                real::abs(rho),
+                real::abs(det) / largest_singular_value([[-z, -r_z], [x, r_x]]),
             ),
             #[rustfmt::skip]
             R: Matrix3::new(
@@ -95,46 +100,21 @@ impl Kinematics {
     /// Whether an arm can have these lengths.
     ///
     /// # Errors
-    /// The first length out of its range: its name in the interface, its value and the range.
-    pub fn check(&self) -> Result<(), String> {
-        let Self {
-            A1,
-            L1,
-            handle_x,
-            handle_z,
-        } = *self;
-        for (name, value) in [
-            ("A1", A1),
-            ("L1", L1),
-            ("handle_x", handle_x),
-            ("handle_z", handle_z),
-        ] {
-            if !value.is_finite() {
-                return Err(format!(
-                    "kinematics.{name} = {value}: expected a finite value"
-                ));
-            }
-        }
-        if A1 < 0.0 {
-            return Err(format!(
-                "kinematics.A1 = {A1}: expected a value not less than 0"
-            ));
-        }
-        if L1 <= 0.0 {
-            return Err(format!(
-                "kinematics.L1 = {L1}: expected a value greater than 0"
-            ));
-        }
-        if handle_x <= 0.0 {
-            return Err(format!(
-                "kinematics.handle_x = {handle_x}: expected a value greater than 0"
-            ));
-        }
-        Ok(())
+    /// The first length out of its range.
+    pub fn check(&self) -> Result<(), ParameterError> {
+        check(
+            None,
+            &[
+                ("kinematics.A1", self.A1, NOT_NEGATIVE),
+                ("kinematics.L1", self.L1, POSITIVE),
+                ("kinematics.handle_x", self.handle_x, POSITIVE),
+                ("kinematics.handle_z", self.handle_z, FINITE),
+            ],
+        )
     }
 }
 
 /// Of [[a, b], [c, d]]: σ₁ + σ₂ = √((a + d)² + (b − c)²) and σ₁ − σ₂ = √((a − d)² + (b + c)²), up to the sign of det.
-fn largest_singular_value([[a, b], [c, d]]: [[f64; 2]; 2]) -> f64 {
-    0.5 * (libm::hypot(a + d, b - c) + libm::hypot(a - d, b + c))
+fn largest_singular_value([[a, b], [c, d]]: [[Real; 2]; 2]) -> Real {
+    0.5 * (real::hypot(a + d, b - c) + real::hypot(a - d, b + c))
 }

@@ -1,7 +1,7 @@
 //! The controller's kinematics against facts, finite differences and another decomposition.
 #![allow(non_snake_case, reason = "the paper's symbols")]
 
-use arm_controller::kinematics::{Kinematics, Pose};
+use arm_law::kinematics::{Kinematics, Pose};
 use nalgebra::{Matrix3, Vector3};
 use proptest::prelude::*;
 use std::f64::consts::FRAC_PI_2;

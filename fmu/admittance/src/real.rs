@@ -1,0 +1,78 @@
+//! The number that the law computes with, and its elementary functions.
+//!
+//! [`Real`] is `f64` in the package `admittance` and `f32` in `admittance-f32`, which compiles the same sources. The
+//! functions are those of `libm`, called directly: the same digits on every platform, with and without `std`.
+
+/// The law's number: double precision, or single precision in the package `admittance-f32`.
+#[cfg(not(feature = "f32"))]
+pub type Real = f64;
+/// The law's number: double precision, or single precision in the package `admittance-f32`.
+#[cfg(feature = "f32")]
+pub type Real = f32;
+
+/// Magnitude below which a decaying state counts as zero: squares stay above the denormal numbers.
+#[cfg(not(feature = "f32"))]
+pub const SMALLEST: Real = 1e-150;
+/// Magnitude below which a decaying state counts as zero: squares stay above the denormal numbers.
+#[cfg(feature = "f32")]
+pub const SMALLEST: Real = 1e-18;
+
+#[cfg(feature = "f32")]
+pub use core::f32::consts;
+#[cfg(not(feature = "f32"))]
+pub use core::f64::consts;
+
+macro_rules! functions {
+    ($($(#[$about:meta])* $name:ident($($x:ident),+) -> $result:ty = $double:ident, $single:ident;)+) => {
+        $(
+            $(#[$about])*
+            #[cfg(not(feature = "f32"))]
+            #[inline]
+            pub fn $name($($x: Real),+) -> $result {
+                libm::$double($($x),+)
+            }
+            $(#[$about])*
+            #[cfg(feature = "f32")]
+            #[inline]
+            pub fn $name($($x: Real),+) -> $result {
+                libm::$single($($x),+)
+            }
+        )+
+    };
+}
+
+functions! {
+    /// |x|
+    abs(x) -> Real = fabs, fabsf;
+    /// √x
+    sqrt(x) -> Real = sqrt, sqrtf;
+    /// √(x² + y²), without overflow on the way
+    hypot(x, y) -> Real = hypot, hypotf;
+    /// sin x and cos x
+    sin_cos(x) -> (Real, Real) = sincos, sincosf;
+    /// eˣ
+    exp(x) -> Real = exp, expf;
+    /// eˣ − 1, exact near 0
+    exp_m1(x) -> Real = expm1, expm1f;
+    /// The smaller one; a NaN gives way to the other
+    min(x, y) -> Real = fmin, fminf;
+    /// The larger one; a NaN gives way to the other
+    max(x, y) -> Real = fmax, fmaxf;
+}
+
+/// sat(x): `x` within ±`bound`; NaN stays NaN.
+pub fn sat(x: Real, bound: Real) -> Real {
+    if x > bound {
+        bound
+    } else if x < -bound {
+        -bound
+    } else {
+        x
+    }
+}
+
+/// Zero in place of a decaying state that would otherwise reach the denormal numbers, where arithmetic is slow. It only
+/// ever lowers the energy that the state holds.
+pub fn floored(x: Real) -> Real {
+    if abs(x) < SMALLEST { 0.0 } else { x }
+}

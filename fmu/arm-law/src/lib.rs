@@ -1,0 +1,25 @@
+//! The admittance law on a 3-DoF arm: where the handle is, what the joints deliver, what energy it takes at the joints.
+//!
+//! | module | what |
+//! |---|---|
+//! | [`kinematics`] | position, Jacobian, smallest singular value and frame of link 3 |
+//! | [`limits`] | what the joints deliver of a torque: one common factor, or each joint clipped |
+//! | [`singularity`] | the damping that slows before a singularity |
+//! | [`task_space`] | a tick: the law at the handle, its torques and its ledger at the joints |
+//!
+//! No heap, no clock, no I/O, no unsafe, no panic; it depends on `admittance` and `nalgebra`. The feature `serde` makes
+//! the state storable. The package `arm-law-f32` compiles these sources in single precision.
+
+#![no_std]
+#![forbid(unsafe_code)]
+#![allow(
+    non_snake_case,
+    reason = "the paper's symbols with its capitals: Lambda_n, K_P, J, T"
+)]
+
+pub mod kinematics;
+pub mod limits;
+pub mod singularity;
+pub mod task_space;
+
+pub use admittance::{ParameterError, Real};
