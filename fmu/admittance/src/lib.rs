@@ -57,6 +57,7 @@
 //! | [`retune`] | live gain changes that do not raise it |
 //! | [`ledger`] | what the sampled law created, and the tank |
 //! | [`admittance`] | N axes under one ledger |
+//! | [`advice`] | gains that are accepted, but probably not meant |
 //!
 //! No heap, no clock, no I/O, no unsafe, no panic; it depends on `nalgebra` and `libm`. The feature `serde` makes the
 //! state storable.
@@ -69,6 +70,7 @@
 )]
 
 pub mod admittance;
+pub mod advice;
 pub mod axis;
 pub mod law;
 pub mod ledger;

@@ -1,5 +1,6 @@
 //! The variables and what a step does.
 
+use admittance::advice::{Advice, advise};
 use admittance::{Gains, Law, ParameterError, Settings};
 use arm_law::kinematics::{Kinematics, Pose};
 use arm_law::limits::{Limits, TorqueLimiting};
@@ -50,6 +51,9 @@ pub struct ArmController {
     pub kinematics: Kinematics,
     pub ft: ForceSensor,
     pub singularity: Singularity,
+
+    pub M_min: f64,
+    pub gain_warning: i32,
 
     ticks: Ticks,
     task_space: Option<TaskSpace>,
@@ -128,6 +132,8 @@ impl Default for ArmController {
             kinematics: Kinematics::default(),
             ft: ForceSensor { frame: BASE },
             singularity: Singularity::default(),
+            M_min: 14.0,
+            gain_warning: 0,
             ticks: Ticks::default(),
             task_space: None,
         }
@@ -135,7 +141,7 @@ impl Default for ArmController {
 }
 
 impl Model for ArmController {
-    fn initialize(&mut self, _start_time: f64, _log: &mut Log<'_>) -> Result<(), Refusal> {
+    fn initialize(&mut self, _start_time: f64, log: &mut Log<'_>) -> Result<(), Refusal> {
         let settings = self.settings()?;
         let limits = self.limits(settings.law)?;
         let gains = self.gains(settings.law)?;
@@ -149,6 +155,8 @@ impl Model for ArmController {
         }
         let mut task_space =
             TaskSpace::new(settings, gains, limits, self.singularity).map_err(refusal)?;
+        self.gain_warning = 0;
+        self.advise(log)?;
         let q = self.q.into();
         let pose = self.kinematics.at(&q);
         let out_of_the_loop = task_space.rest(&pose, &q);
@@ -159,12 +167,13 @@ impl Model for ArmController {
         Ok(())
     }
 
-    fn tune(&mut self, _log: &mut Log<'_>) -> Result<(), Refusal> {
+    fn tune(&mut self, log: &mut Log<'_>) -> Result<(), Refusal> {
         let gains = self.gains(Law::try_from(self.law).map_err(refusal)?)?;
         self.task_space
             .as_mut()
             .map_or(Ok(()), |task_space| task_space.tune(gains))
-            .map_err(refusal)
+            .map_err(refusal)?;
+        self.advise(log)
     }
 
     fn accepts(&self, step: &Step) -> Result<(), Refusal> {
@@ -260,6 +269,21 @@ impl ArmController {
                 ..gains
             }),
         })
+    }
+
+    /// Sets `gain_warning` to what any axis is advised against, and says why when it becomes another one than 0.
+    fn advise(&mut self, log: &mut Log<'_>) -> Result<(), Refusal> {
+        let settings = self.settings()?;
+        let advice = self
+            .gains(settings.law)?
+            .iter()
+            .map(|gains| advise(&settings, gains, self.M_min))
+            .fold(Advice::default(), Advice::or);
+        let before = std::mem::replace(&mut self.gain_warning, advice.number());
+        if ![0, before].contains(&self.gain_warning) {
+            log.warning(format_args!("gain_warning: {}", advice.message()));
+        }
+        Ok(())
     }
 
     /// f_h (N) in the base frame.

@@ -232,6 +232,12 @@ impl Declare for ArmController {
             real!(singularity.D, unit::NEWTON_SECOND_PER_METRE).parameter(Fixed).at_least(0.0).about(
                 "Slowing: below sigma_slow D_n is raised by singularity.D*((sigma_slow/sigma_min)^2 - 1), at most by 15 singularity.D",
             ),
+            real!(M_min, unit::KILOGRAM).parameter(Fixed).at_least(SMALLEST).about(
+                "Lightest effective mass that the robot shows along an axis, for gain_warning only",
+            ),
+            integer!(gain_warning).output(Discrete).initially_from(&["M_min", "Lambda_n[i]", "K[i]", "T"]).about(
+                "Gains that are accepted but probably not meant: 0 none, 1 K*T/M_min above 0.25, 2 a Lambda_n below M_min/10, 3 both",
+            ),
         ],
     };
 }

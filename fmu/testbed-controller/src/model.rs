@@ -1,5 +1,6 @@
 //! The variables and what a step does.
 
+use admittance::advice::advise;
 use admittance::{Admittance, Gains, Law, ParameterError, Settings, Tick};
 use export::{Log, Model, Refusal, Step, Ticks};
 use nalgebra::Vector1;
@@ -37,6 +38,9 @@ pub struct TestbedController {
     pub v_max: f64,
     pub a_max: f64,
     pub dq_cutoff: f64,
+
+    pub M_min: f64,
+    pub gain_warning: i32,
 
     ticks: Ticks,
     admittance: Option<Admittance<1>>,
@@ -96,6 +100,8 @@ impl Default for TestbedController {
             v_max,
             a_max,
             dq_cutoff,
+            M_min: 6.0,
+            gain_warning: 0,
             ticks: Ticks::default(),
             admittance: None,
         }
@@ -103,8 +109,10 @@ impl Default for TestbedController {
 }
 
 impl Model for TestbedController {
-    fn initialize(&mut self, _start_time: f64, _log: &mut Log<'_>) -> Result<(), Refusal> {
+    fn initialize(&mut self, _start_time: f64, log: &mut Log<'_>) -> Result<(), Refusal> {
         let mut admittance = Admittance::new(self.settings()?, [self.gains()]).map_err(refusal)?;
+        self.gain_warning = 0;
+        self.advise(log)?;
         let out_of_the_loop = admittance.rest(&Vector1::new(self.q));
         self.show(&out_of_the_loop, &admittance);
         self.admittance = Some(admittance);
@@ -113,12 +121,13 @@ impl Model for TestbedController {
         Ok(())
     }
 
-    fn tune(&mut self, _log: &mut Log<'_>) -> Result<(), Refusal> {
+    fn tune(&mut self, log: &mut Log<'_>) -> Result<(), Refusal> {
         let gains = self.gains();
         self.admittance
             .as_mut()
             .map_or(Ok(()), |admittance| admittance.tune([gains]))
-            .map_err(refusal)
+            .map_err(refusal)?;
+        self.advise(log)
     }
 
     fn accepts(&self, step: &Step) -> Result<(), Refusal> {
@@ -187,6 +196,16 @@ impl TestbedController {
             K_P,
             f_max: tau_max,
         }
+    }
+
+    /// Sets `gain_warning` and says why when it becomes another one than 0.
+    fn advise(&mut self, log: &mut Log<'_>) -> Result<(), Refusal> {
+        let advice = advise(&self.settings()?, &self.gains(), self.M_min);
+        let before = std::mem::replace(&mut self.gain_warning, advice.number());
+        if ![0, before].contains(&self.gain_warning) {
+            log.warning(format_args!("gain_warning: {}", advice.message()));
+        }
+        Ok(())
     }
 
     fn show(&mut self, tick: &Tick<1>, admittance: &Admittance<1>) {

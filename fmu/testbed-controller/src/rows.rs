@@ -142,6 +142,12 @@ impl Declare for TestbedController {
                 .parameter(Fixed)
                 .at_least(0.0)
                 .about("Corner frequency of a first-order low pass on dq; 0 = off"),
+            real!(M_min, unit::KILOGRAM).parameter(Fixed).at_least(SMALLEST).about(
+                "Lightest effective mass that the robot shows, for gain_warning only",
+            ),
+            integer!(gain_warning).output(Discrete).initially_from(&["M_min", "M_n", "K", "T"]).about(
+                "Gains that are accepted but probably not meant: 0 none, 1 K*T/M_min above 0.25, 2 M_n below M_min/10, 3 both",
+            ),
         ],
     };
 }

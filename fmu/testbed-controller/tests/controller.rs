@@ -342,3 +342,19 @@ fn the_enumeration_has_the_laws_numbers_and_names() {
     let laws = admittance::Law::ALL.map(|law| (law.number(), law.name()));
     assert_eq!(declared, laws);
 }
+
+#[test]
+fn gain_warning_follows_the_gains_at_start_and_at_each_change() {
+    assert_eq!(initialized(|_| ()).gain_warning, 0);
+    // The lightest nominal of the wall scenario, and K T/M_min = 0.5.
+    assert_eq!(initialized(|c| c.M_n = 0.1).gain_warning, 2);
+    let mut controller = initialized(|c| c.K = 1500.0);
+    assert_eq!(controller.gain_warning, 1);
+    controller.M_n = 0.1;
+    controller.tune(&mut Log::silent()).expect("valid gains");
+    assert_eq!(controller.gain_warning, 3);
+    (controller.K, controller.M_n) = (30.0, 5.0);
+    controller.tune(&mut Log::silent()).expect("valid gains");
+    assert_eq!(controller.gain_warning, 0);
+    assert_eq!(initialized(|c| c.M_min = 60.0).gain_warning, 2);
+}

@@ -71,3 +71,16 @@ fn a_refused_gain_leaves_the_law_as_it_was() {
     }
     assert_eq!(tuned, untouched);
 }
+
+#[test]
+fn gain_warning_is_that_of_the_axis_that_needs_it() {
+    assert_eq!(initialized(|_| ()).gain_warning, 0);
+    // K T/M_min = 0.25 at K = 3500 N·s/m, M_min/10 = 1.4 kg.
+    assert_eq!(initialized(|c| c.K[1] = 3600.0).gain_warning, 1);
+    assert_eq!(initialized(|c| c.Lambda_n[2] = 1.0).gain_warning, 2);
+    let mut c = initialized(|c| (c.K[0], c.Lambda_n[2]) = (3600.0, 1.0));
+    assert_eq!(c.gain_warning, 3);
+    c.K = [1000.0; 3];
+    c.tune(&mut Log::silent()).expect("valid gains");
+    assert_eq!(c.gain_warning, 2);
+}
