@@ -6,6 +6,7 @@
 //! | [`limits`] | what the joints deliver of a torque: one common factor, or each joint clipped |
 //! | [`singularity`] | the damping that slows before a singularity |
 //! | [`task_space`] | a tick: the law at the handle, its torques and its ledger at the joints |
+//! | [`wrench`] | the hand's force from a six-axis force sensor: tare, tool weight, lever arm, faults, filter, deadband |
 //!
 //! No heap, no clock, no I/O, no unsafe, no panic; it depends on `admittance` and `nalgebra`. The feature `serde` makes
 //! the state storable. The package `arm-law-f32` compiles these sources in single precision.
@@ -21,5 +22,6 @@ pub mod kinematics;
 pub mod limits;
 pub mod singularity;
 pub mod task_space;
+pub mod wrench;
 
 pub use admittance::{ParameterError, Real};

@@ -1,0 +1,147 @@
+//! The whole way from a raw sample to the hand's force.
+
+use super::deadband::deadband;
+use super::filter::LowPass;
+use super::tare::{Tare, TareSettings};
+use super::validity::{Checks, Validity};
+use super::{Fault, TareState, Tool, Wrench};
+use admittance::parameters::{FINITE, NOT_NEGATIVE, check};
+use admittance::{ParameterError, Real};
+use nalgebra::{Matrix3, Vector3};
+
+/// What the sensor is like and what is made of it.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Sensor {
+    /// What hangs on it.
+    pub tool: Tool,
+    /// Lever arm: the handle from the sensor's origin, sensor frame, m.
+    pub handle: Vector3<Real>,
+    /// How it may fail.
+    pub checks: Checks,
+    /// How its bias is found.
+    pub tare: TareSettings,
+    /// Corner frequency of the low pass, Hz; 0 = off.
+    pub cutoff: Real,
+    /// Width of the deadband, N; 0 = off.
+    pub deadband: Real,
+}
+
+/// One sample.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sample {
+    /// The raw reading: what acts on the tool, about the sensor's origin, sensor frame.
+    pub wrench: Wrench,
+    /// Orientation of the sensor: turns a vector of its frame into the base frame.
+    pub R: Matrix3<Real>,
+    /// Joint angles, rad: whether the arm rests during a tare.
+    pub q: Vector3<Real>,
+    /// The sensor's own word: false = invalid.
+    pub valid: bool,
+    /// Whether a tare is requested; its change to true starts one.
+    pub tare: bool,
+}
+
+impl Default for Sample {
+    /// Nothing acts, and nothing is asked for.
+    fn default() -> Self {
+        Self {
+            wrench: Wrench::ZERO,
+            R: Matrix3::identity(),
+            q: Vector3::zeros(),
+            valid: true,
+            tare: false,
+        }
+    }
+}
+
+/// What is made of a sample.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Conditioned {
+    /// What the hand does to the handle, about the handle, in the sensor's frame: zero while there is a fault or a tare
+    /// runs.
+    pub hand: Wrench,
+    /// What is wrong with the sensor.
+    pub fault: Option<Fault>,
+    /// How far the tare has come.
+    pub tare: TareState,
+}
+
+/// The conditioning between two samples.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Conditioner {
+    sensor: Sensor,
+    validity: Validity,
+    tare: Tare,
+    filter: LowPass,
+}
+
+impl Sensor {
+    /// Whether there can be such a sensor.
+    ///
+    /// # Errors
+    /// The first value out of its range.
+    pub fn check(&self) -> Result<(), ParameterError> {
+        self.tool.check()?;
+        self.checks.check()?;
+        self.tare.check()?;
+        for (axis, handle) in (1..).zip(&self.handle) {
+            check(Some(axis), &[("ft.handle", *handle, FINITE)])?;
+        }
+        check(
+            None,
+            &[
+                ("ft.cutoff", self.cutoff, NOT_NEGATIVE),
+                ("ft.deadband", self.deadband, NOT_NEGATIVE),
+            ],
+        )
+    }
+}
+
+impl Conditioner {
+    /// No sample so far; `T` (s) is the sample period.
+    ///
+    /// # Errors
+    /// The first value of `sensor` out of its range.
+    pub fn new(sensor: Sensor, T: Real) -> Result<Self, ParameterError> {
+        sensor.check()?;
+        Ok(Self {
+            sensor,
+            validity: Validity::new(sensor.checks, T),
+            tare: Tare::new(sensor.tare, T),
+            filter: LowPass::new(sensor.cutoff, T),
+        })
+    }
+
+    /// One sample.
+    pub fn step(&mut self, sample: &Sample) -> Conditioned {
+        let fault = self.validity.step(&sample.wrench, sample.valid);
+        let unladen = sample.wrench - self.sensor.tool.weight(&sample.R);
+        self.tare.step(sample.tare, &unladen, fault, &sample.q);
+        let tare = self.tare.state();
+        if fault.is_some() || tare == TareState::Running {
+            self.filter.reset();
+            return Conditioned {
+                hand: Wrench::ZERO,
+                fault,
+                tare,
+            };
+        }
+        let hand = (unladen - self.tare.bias()).about(&self.sensor.handle);
+        let hand = self.filter.step(&hand);
+        Conditioned {
+            hand: Wrench {
+                force: deadband(&hand.force, self.sensor.deadband),
+                torque: hand.torque,
+            },
+            fault,
+            tare,
+        }
+    }
+
+    /// What the sensor reads when nothing acts on it, as far as a tare has found it; sensor frame.
+    pub fn bias(&self) -> Wrench {
+        self.tare.bias()
+    }
+}

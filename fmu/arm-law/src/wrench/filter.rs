@@ -1,0 +1,54 @@
+//! A first-order low pass on the wrench.
+//!
+//! ```text
+//! x⁺ = x + (1 − e^{−2π f_c T}) (u − x)
+//! ```
+//!
+//! which is the continuous filter sampled exactly for an input that holds over each sample. It costs phase: below f_c it
+//! delays a signal by T a/(1 − a) with a = e^{−2π f_c T}, 1/(2π f_c) less about half a sample. 30 Hz at 1 kHz are 4.8 ms,
+//! as much as five samples of delay between hand and nominal, and a stiff hand goes unstable that much earlier. Prefer
+//! the deadband against a bias and this only against noise.
+
+use super::Wrench;
+use admittance::{Real, real};
+
+/// The low pass between two ticks.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct LowPass {
+    /// 1 − e^{−2π f_c T}; 1 = off.
+    share: Real,
+    state: Wrench,
+}
+
+impl LowPass {
+    /// Corner frequency `cutoff` (Hz, ≥ 0; 0 = off) at sample period `T` (s), at rest at zero.
+    pub fn new(cutoff: Real, T: Real) -> Self {
+        Self {
+            share: if cutoff > 0.0 {
+                -real::exp_m1(-2.0 * real::consts::PI * cutoff * T)
+            } else {
+                1.0
+            },
+            state: Wrench::ZERO,
+        }
+    }
+
+    /// Back to zero: the next force builds up from there.
+    pub fn reset(&mut self) {
+        self.state = Wrench::ZERO;
+    }
+
+    /// One sample of the finite input `u`.
+    pub fn step(&mut self, u: &Wrench) -> Wrench {
+        if self.share == 1.0 {
+            return *u;
+        }
+        let step = |x: Real, u: Real| real::floored(x + self.share * (u - x));
+        self.state = Wrench {
+            force: self.state.force.zip_map(&u.force, step),
+            torque: self.state.torque.zip_map(&u.torque, step),
+        };
+        self.state
+    }
+}

@@ -1,0 +1,250 @@
+//! The sensor's bias, found while nobody touches the handle.
+//!
+//! ```text
+//! off ──request──▶ running ──n samples──▶ done
+//!                     └── fault, moved, unsteady, too large ──▶ failed
+//! ```
+//!
+//! A request is the input's change to true. Over `time` the mean of what is left of the reading without the tool's weight
+//! is the bias; since the weight has been taken off, one pose is enough for all. From n samples of white noise σ the
+//! bias is off by σ/√n: 0.01 N of 0.2 N in half a second. A tare that fails leaves the bias as it was.
+//!
+//! It fails when what it sees is not a bias at rest: the sensor has a fault (an end of the range among them), a joint has
+//! moved by more than `motion`, a component's standard deviation exceeds `spread`, or the mean exceeds `max`. The last
+//! one is the only guard against a hand that rests on the handle: **a constant push cannot be told from a bias**. Set
+//! `max` to what the sensor may really drift.
+
+use super::{Fault, Wrench};
+use admittance::parameters::{NOT_NEGATIVE, POSITIVE, check};
+use admittance::{ParameterError, Real, real};
+use nalgebra::Vector3;
+
+/// How far a tare has come.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub enum TareState {
+    /// None was asked for.
+    Off,
+    /// The samples are being taken.
+    Running,
+    /// The bias is that of the last tare.
+    Done,
+    /// The last tare found no bias.
+    Failed(TareFailure),
+}
+
+/// Why a tare found no bias.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[repr(i32)]
+pub enum TareFailure {
+    /// The sensor had a fault.
+    Fault = 1,
+    /// A joint moved.
+    Moved = 2,
+    /// The reading scattered or drifted.
+    Unsteady = 3,
+    /// What was found is too large for a bias.
+    TooLarge = 4,
+}
+
+/// What a tare asks for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct TareSettings {
+    /// For how long the samples are taken, s.
+    pub time: Real,
+    /// How far a joint may move meanwhile, rad.
+    pub motion: Real,
+    /// Largest standard deviation of a force component, N; 0 = any.
+    pub spread_force: Real,
+    /// Largest standard deviation of a moment component, N·m; 0 = any.
+    pub spread_torque: Real,
+    /// Largest force component of the bias, N; 0 = any.
+    pub max_force: Real,
+    /// Largest moment component of the bias, N·m; 0 = any.
+    pub max_torque: Real,
+}
+
+impl Default for TareSettings {
+    /// Half a second; the least count of a 14-bit encoder three times over; a hand's tremor does not pass.
+    fn default() -> Self {
+        Self {
+            time: 0.5,
+            motion: 1.2e-3,
+            spread_force: 0.5,
+            spread_torque: 0.05,
+            max_force: 20.0,
+            max_torque: 2.0,
+        }
+    }
+}
+
+/// The tare between two samples.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Tare {
+    settings: TareSettings,
+    /// Samples that make a tare.
+    needed: u32,
+    requested: bool,
+    state: TareState,
+    bias: Wrench,
+    count: u32,
+    start: Vector3<Real>,
+    mean: [Real; 6],
+    /// Sum of the squared deviations from the mean (Welford): no cancellation, also in single precision.
+    deviation: [Real; 6],
+}
+
+impl TareState {
+    /// The number by which the interface knows it: 0 off, 1 running, 2 done, 3 failed.
+    pub fn number(self) -> i32 {
+        match self {
+            Self::Off => 0,
+            Self::Running => 1,
+            Self::Done => 2,
+            Self::Failed(_) => 3,
+        }
+    }
+
+    /// Why it failed, if it did.
+    pub fn failure(self) -> Option<TareFailure> {
+        match self {
+            Self::Failed(failure) => Some(failure),
+            _ => None,
+        }
+    }
+}
+
+impl TareFailure {
+    /// The number by which the interface knows it; 0 stands for none.
+    pub fn number(self) -> i32 {
+        self as i32
+    }
+}
+
+impl TareSettings {
+    /// Whether a tare can be made so.
+    ///
+    /// # Errors
+    /// The first value out of its range.
+    pub fn check(&self) -> Result<(), ParameterError> {
+        check(
+            None,
+            &[
+                ("ft.tare_time", self.time, POSITIVE),
+                ("ft.tare_motion", self.motion, NOT_NEGATIVE),
+                ("ft.tare_spread_force", self.spread_force, NOT_NEGATIVE),
+                ("ft.tare_spread_torque", self.spread_torque, NOT_NEGATIVE),
+                ("ft.tare_max_force", self.max_force, NOT_NEGATIVE),
+                ("ft.tare_max_torque", self.max_torque, NOT_NEGATIVE),
+            ],
+        )
+    }
+}
+
+impl Tare {
+    /// No bias so far, at sample period `T` (s).
+    pub fn new(settings: TareSettings, T: Real) -> Self {
+        Self {
+            settings,
+            needed: real::max(1.0, settings.time / T + 0.5) as u32,
+            requested: false,
+            state: TareState::Off,
+            bias: Wrench::ZERO,
+            count: 0,
+            start: Vector3::zeros(),
+            mean: [0.0; 6],
+            deviation: [0.0; 6],
+        }
+    }
+
+    /// How far it has come.
+    pub fn state(&self) -> TareState {
+        self.state
+    }
+
+    /// What the sensor reads when nothing acts on it: of the last tare that was done, else zero.
+    pub fn bias(&self) -> Wrench {
+        self.bias
+    }
+
+    /// One sample: whether a tare is `requested`, the reading without the tool's weight, the sensor's fault, the joint
+    /// angles `q` (rad).
+    pub fn step(
+        &mut self,
+        requested: bool,
+        unladen: &Wrench,
+        fault: Option<Fault>,
+        q: &Vector3<Real>,
+    ) {
+        let asked = requested && !self.requested;
+        self.requested = requested;
+        if asked && self.state != TareState::Running {
+            *self = Self {
+                state: TareState::Running,
+                count: 0,
+                start: *q,
+                mean: [0.0; 6],
+                deviation: [0.0; 6],
+                ..*self
+            };
+        }
+        if self.state == TareState::Running {
+            self.state = self.sampled(unladen, fault, q);
+        }
+    }
+
+    /// The state after one more sample.
+    fn sampled(&mut self, unladen: &Wrench, fault: Option<Fault>, q: &Vector3<Real>) -> TareState {
+        if fault.is_some() {
+            return TareState::Failed(TareFailure::Fault);
+        }
+        let moved = |(q, start): (&Real, &Real)| !within(q - start, self.settings.motion);
+        if q.iter().zip(&self.start).any(moved) {
+            return TareState::Failed(TareFailure::Moved);
+        }
+        self.count += 1;
+        let statistics = self.mean.iter_mut().zip(&mut self.deviation);
+        for ((mean, deviation), x) in statistics.zip(unladen.components()) {
+            let before = x - *mean;
+            *mean += before / self.count as Real;
+            *deviation += before * (x - *mean);
+        }
+        if self.count < self.needed {
+            return TareState::Running;
+        }
+        let spread = Wrench::from(
+            self.deviation
+                .map(|deviation| real::sqrt(deviation / self.count as Real)),
+        );
+        let mean = Wrench::from(self.mean);
+        let TareSettings {
+            spread_force,
+            spread_torque,
+            max_force,
+            max_torque,
+            ..
+        } = self.settings;
+        if !all_within(&spread, spread_force, spread_torque) {
+            TareState::Failed(TareFailure::Unsteady)
+        } else if !all_within(&mean, max_force, max_torque) {
+            TareState::Failed(TareFailure::TooLarge)
+        } else {
+            self.bias = mean;
+            TareState::Done
+        }
+    }
+}
+
+/// Whether |`x`| ≤ `limit`; NaN is not.
+fn within(x: Real, limit: Real) -> bool {
+    real::abs(x) <= limit
+}
+
+/// Whether every component is finite and within its limit; a limit of 0 is none.
+fn all_within(wrench: &Wrench, force: Real, torque: Real) -> bool {
+    let good = |x: &Real, limit: Real| x.is_finite() && (limit == 0.0 || within(*x, limit));
+    wrench.force.iter().all(|x| good(x, force)) && wrench.torque.iter().all(|x| good(x, torque))
+}

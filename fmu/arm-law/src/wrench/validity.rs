@@ -1,0 +1,220 @@
+//! What a broken sensor shows, named.
+//!
+//! Each check is found at the onset or one sample later and is off at 0, but for the first:
+//!
+//! | fault | when |
+//! |---|---|
+//! | `not_finite` | a component is NaN or infinite; always on |
+//! | `over_range` | a component has reached the end of the range, where the sensor clips |
+//! | `rate` | a component has changed by rate·T or more in a sample: faster than a hand can push |
+//! | `stuck` | all components are bit for bit what they were, `stuck_samples` times in a row |
+//! | `dropout` | all components are exactly 0, `dropout_samples` times in a row, or the sensor itself says that it is invalid |
+//!
+//! Noise moves a sound sensor's last bits at every sample, which is what the last two checks rely on: choose 2, or more for
+//! a coarse converter or a sensor that is slower than the controller. A sensor that computes without noise, such as a
+//! simulated one, is *stuck* whenever nobody pushes.
+//!
+//! Where several apply the most telling one is named: not finite, the sensor's own word, over range, dropout, stuck, rate.
+//! A fault lasts until the signal has been sound for `recovery_time`: a jump is seen at one sample only, and what comes
+//! after it is not to be trusted at once. It bears the name of the last one found, but that a jump renames nothing: the way
+//! back from a dropout is one.
+
+use super::Wrench;
+use admittance::parameters::{NOT_NEGATIVE, check};
+use admittance::{ParameterError, Real, real};
+
+/// What is wrong with the sensor.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[repr(i32)]
+pub enum Fault {
+    /// A component is NaN or infinite.
+    NotFinite = 1,
+    /// A component has reached the end of the range.
+    OverRange = 2,
+    /// A component changes too fast.
+    Rate = 3,
+    /// The reading no longer changes.
+    Stuck = 4,
+    /// The reading is exactly 0, or the sensor says that it is invalid.
+    Dropout = 5,
+}
+
+/// The checks; 0 = off.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Checks {
+    /// Absolute value at which a force component is over range, N.
+    pub range_force: Real,
+    /// Absolute value at which a moment component is over range, N·m.
+    pub range_torque: Real,
+    /// Rate at which a force component is too fast, N/s.
+    pub rate_force: Real,
+    /// Rate at which a moment component is too fast, N·m/s.
+    pub rate_torque: Real,
+    /// Repetitions of a reading after which the sensor is stuck.
+    pub stuck_samples: u32,
+    /// Readings of exactly 0 after which the sensor has dropped out.
+    pub dropout_samples: u32,
+    /// For how long the signal must be sound before it is used again, s.
+    pub recovery_time: Real,
+}
+
+impl Default for Checks {
+    /// All off but for NaN and infinity; recovery within 0.1 s.
+    fn default() -> Self {
+        Self {
+            range_force: 0.0,
+            range_torque: 0.0,
+            rate_force: 0.0,
+            rate_torque: 0.0,
+            stuck_samples: 0,
+            dropout_samples: 0,
+            recovery_time: 0.1,
+        }
+    }
+}
+
+/// The checks between two samples.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Validity {
+    checks: Checks,
+    T: Real,
+    /// The last reading, if it was finite.
+    last: Option<Wrench>,
+    repetitions: u32,
+    zeros: u32,
+    fault: Option<Fault>,
+    /// For how long the signal has been sound since the fault, s.
+    sound: Real,
+}
+
+impl Fault {
+    /// All, by number.
+    pub const ALL: [Self; 5] = [
+        Self::NotFinite,
+        Self::OverRange,
+        Self::Rate,
+        Self::Stuck,
+        Self::Dropout,
+    ];
+
+    /// The number by which the interface knows it; 0 stands for none.
+    pub fn number(self) -> i32 {
+        self as i32
+    }
+
+    /// The name by which the interface knows it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::NotFinite => "not_finite",
+            Self::OverRange => "over_range",
+            Self::Rate => "rate",
+            Self::Stuck => "stuck",
+            Self::Dropout => "dropout",
+        }
+    }
+}
+
+impl Checks {
+    /// Whether these can be made.
+    ///
+    /// # Errors
+    /// The first value out of its range.
+    pub fn check(&self) -> Result<(), ParameterError> {
+        check(
+            None,
+            &[
+                ("ft.range_force", self.range_force, NOT_NEGATIVE),
+                ("ft.range_torque", self.range_torque, NOT_NEGATIVE),
+                ("ft.rate_force", self.rate_force, NOT_NEGATIVE),
+                ("ft.rate_torque", self.rate_torque, NOT_NEGATIVE),
+                ("ft.recovery_time", self.recovery_time, NOT_NEGATIVE),
+            ],
+        )
+    }
+}
+
+impl Validity {
+    /// `checks` at sample period `T` (s); no sample so far.
+    pub fn new(checks: Checks, T: Real) -> Self {
+        Self {
+            checks,
+            T,
+            last: None,
+            repetitions: 0,
+            zeros: 0,
+            fault: None,
+            sound: 0.0,
+        }
+    }
+
+    /// The fault at the sample `raw`, if there is one. `flag` is the sensor's own word: false = invalid.
+    pub fn step(&mut self, raw: &Wrench, flag: bool) -> Option<Fault> {
+        match self.found(raw, flag) {
+            Some(found) => {
+                self.fault = match (found, self.fault) {
+                    (Fault::Rate, Some(fault)) => Some(fault),
+                    _ => Some(found),
+                };
+                self.sound = 0.0;
+            }
+            None if self.fault.is_some() => {
+                self.sound += self.T;
+                // Half a sample: sums of T carry rounding.
+                if self.sound > self.checks.recovery_time - 0.5 * self.T {
+                    self.fault = None;
+                }
+            }
+            None => {}
+        }
+        self.fault
+    }
+
+    /// What is wrong with this sample.
+    fn found(&mut self, raw: &Wrench, flag: bool) -> Option<Fault> {
+        let finite = raw.components().iter().all(|x| x.is_finite());
+        let last = self.last.filter(|_| finite);
+        self.repetitions = counted(self.repetitions, last == Some(*raw));
+        self.zeros = counted(self.zeros, *raw == Wrench::ZERO);
+        self.last = finite.then_some(*raw); // no rate across a gap
+
+        let Checks {
+            range_force,
+            range_torque,
+            rate_force,
+            rate_torque,
+            stuck_samples,
+            dropout_samples,
+            ..
+        } = self.checks;
+        let change = last.map_or(Wrench::ZERO, |last| *raw - last);
+        if !finite {
+            Some(Fault::NotFinite)
+        } else if !flag {
+            Some(Fault::Dropout)
+        } else if reaches(raw, range_force, range_torque) {
+            Some(Fault::OverRange)
+        } else if dropout_samples > 0 && self.zeros >= dropout_samples {
+            Some(Fault::Dropout)
+        } else if stuck_samples > 0 && self.repetitions >= stuck_samples {
+            Some(Fault::Stuck)
+        } else if reaches(&change, rate_force * self.T, rate_torque * self.T) {
+            Some(Fault::Rate)
+        } else {
+            None
+        }
+    }
+}
+
+/// One more if it happened `again`, else from 0.
+fn counted(count: u32, again: bool) -> u32 {
+    if again { count.saturating_add(1) } else { 0 }
+}
+
+/// Whether a component of `wrench` reaches its limit; a limit of 0 is none.
+fn reaches(wrench: &Wrench, force: Real, torque: Real) -> bool {
+    let beyond = |x: &Real, limit: Real| limit > 0.0 && real::abs(*x) >= limit;
+    wrench.force.iter().any(|x| beyond(x, force)) || wrench.torque.iter().any(|x| beyond(x, torque))
+}

@@ -1,0 +1,11 @@
+//! Conditioning of a force sensor: each step against closed forms, the whole against synthetic sensors.
+#![allow(non_snake_case, reason = "the paper's symbols")]
+
+mod deadband;
+mod filter;
+mod refusals;
+mod residual;
+mod synthetic;
+mod tare;
+mod transport;
+mod validity;
