@@ -5,6 +5,7 @@
 //! | [`kinematics`] | position, Jacobian, smallest singular value and frame of link 3 |
 //! | [`limits`] | what the joints deliver of a torque: one common factor, or each joint clipped |
 //! | [`singularity`] | the damping that slows before a singularity |
+//! | [`supervision`] | when the law may act: states, faults, their diagnostics |
 //! | [`task_space`] | a tick: the law at the handle, its torques and its ledger at the joints |
 //! | [`wrench`] | the hand's force from a six-axis force sensor: tare, tool weight, lever arm, faults, filter, deadband |
 //!
@@ -21,6 +22,7 @@
 pub mod kinematics;
 pub mod limits;
 pub mod singularity;
+pub mod supervision;
 pub mod task_space;
 pub mod wrench;
 

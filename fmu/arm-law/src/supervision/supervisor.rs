@@ -1,0 +1,277 @@
+//! One tick of supervision.
+
+use super::condition::{Condition, Conditions};
+use super::diagnostic::Diagnostic;
+use super::parameters::{Durations, Parameters};
+use super::ramp::Ramp;
+use super::state::State;
+use super::table::{FAULTS, next};
+use super::watch::{Edge, Hand, Heartbeat, Lasting};
+use admittance::{ParameterError, Real};
+
+/// What supervision sees at a tick.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Inputs {
+    /// Whether the controller may run at all.
+    pub enable: bool,
+    /// Whether it is to be in the loop; a rising edge in `ready` engages, false stops softly.
+    pub engage: bool,
+    /// Its rising edge acknowledges a fault.
+    pub acknowledge: bool,
+    /// Whether the emergency stop is pressed.
+    pub emergency_stop: bool,
+    /// Whether the nominal is to stand still.
+    pub hold: bool,
+    /// A counter that changes as long as its sender lives.
+    pub heartbeat: i32,
+    /// Whether the human's force can be trusted. The caller also makes it false when the force is not finite.
+    pub ft_valid: bool,
+    /// Whether the joint angles can be trusted. The caller also makes it false when they are not finite.
+    pub encoder_valid: bool,
+    /// |f_h|, N: whether the hand is at rest.
+    pub force: Real,
+}
+
+impl Default for Inputs {
+    /// Off, with good sensors.
+    fn default() -> Self {
+        Self {
+            enable: false,
+            engage: false,
+            acknowledge: false,
+            emergency_stop: false,
+            hold: false,
+            heartbeat: 0,
+            ft_valid: true,
+            encoder_valid: true,
+            force: 0.0,
+        }
+    }
+}
+
+/// What the law must do at a tick.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Demand {
+    /// Stay out of the loop: no torque, q_n = q, v_n = 0.
+    Rest,
+    /// Run.
+    Run {
+        /// Share of its force that reaches the robot and, where the law says so, the nominal; in [0, 1].
+        authority: Real,
+        /// 1: the nominal is free. Below: its velocity stays between 0 and this share of the one that it had at the last
+        /// tick at which it was free; 0: it stands still.
+        freedom: Real,
+    },
+}
+
+/// What came of the law's tick.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Report {
+    /// Whether all its results are finite.
+    pub finite: bool,
+    /// Whether it owes energy and gives no torque until that is repaid.
+    pub debt: bool,
+    /// Whether the motion exceeded the bounds of the passivity argument.
+    pub outside_bounds: bool,
+    /// Whether a limit on force or torque acted.
+    pub saturated: bool,
+}
+
+impl Default for Report {
+    /// Nothing to report.
+    fn default() -> Self {
+        Self {
+            finite: true,
+            debt: false,
+            outside_bounds: false,
+            saturated: false,
+        }
+    }
+}
+
+/// What supervision shows after a tick.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Status {
+    /// The state.
+    pub state: State,
+    /// Why the law does not simply run, as of this tick.
+    pub diagnostic: Diagnostic,
+    /// The first fault since the last acknowledgement; `None` if there was none.
+    pub first_fault: Diagnostic,
+    /// Share of its force that the law exerts.
+    pub authority: Real,
+}
+
+/// The state machine with its memory.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Supervisor {
+    durations: Durations,
+    hold_enter: Real,
+    hold_leave: Real,
+    state: State,
+    first_fault: Diagnostic,
+    conditions: Conditions,
+    ramp: Ramp,
+    engage: Edge,
+    acknowledge: Edge,
+    heartbeat: Heartbeat,
+    hand: Hand,
+    good: Lasting,
+    saturated: Lasting,
+}
+
+impl Supervisor {
+    /// Off, with a sample period of `T` (s).
+    ///
+    /// # Errors
+    /// The first parameter out of its range.
+    #[allow(non_snake_case, reason = "the paper's symbol")]
+    pub fn new(parameters: &Parameters, T: Real) -> Result<Self, ParameterError> {
+        Ok(Self {
+            durations: Durations::new(parameters, T)?,
+            hold_enter: parameters.hold_enter,
+            hold_leave: parameters.hold_leave,
+            state: State::Off,
+            first_fault: Diagnostic::None,
+            conditions: Conditions::default(),
+            ramp: Ramp::default(),
+            engage: Edge::new(),
+            acknowledge: Edge::new(),
+            heartbeat: Heartbeat::new(),
+            hand: Hand::default(),
+            good: Lasting::default(),
+            saturated: Lasting::default(),
+        })
+    }
+
+    /// A tick begins: what the law must do. [`judge`](Self::judge) ends it.
+    pub fn step(&mut self, inputs: &Inputs) -> Demand {
+        let before = self.state;
+        let seen = self.see(inputs);
+        if before.acts() {
+            self.latch(seen);
+        }
+        self.conditions = seen
+            .with(
+                Condition::Stopped,
+                before == State::SoftStop && self.stopped(),
+            )
+            .with(Condition::Latched, self.first_fault != Diagnostic::None);
+        self.state = next(before, self.conditions);
+        self.entered();
+        self.ramp.advance(before, self.state, &self.durations);
+        if self.state.acts() {
+            Demand::Run {
+                authority: self.ramp.authority(),
+                freedom: self.ramp.freedom(),
+            }
+        } else {
+            Demand::Rest
+        }
+    }
+
+    /// The tick ends: what came of it. If the law's result was not finite the state is now `fault`: the caller drops that
+    /// result, lets the law rest and gives no torque.
+    pub fn judge(&mut self, report: &Report) -> Status {
+        if !report.finite {
+            let before = self.state;
+            self.conditions = self.conditions.with(Condition::NotFinite, true);
+            self.state = next(before, self.conditions);
+            self.entered();
+            self.ramp.advance(before, self.state, &self.durations);
+        }
+        let limited = self.state.acts() && report.saturated;
+        let long = self.saturated.count(limited) >= self.durations.saturation.max(1);
+        Status {
+            state: self.state,
+            diagnostic: self.diagnostic(report, limited && long && self.durations.saturation > 0),
+            first_fault: self.first_fault,
+            authority: self.ramp.authority(),
+        }
+    }
+
+    /// The conditions that follow from the inputs and the memory of them.
+    fn see(&mut self, inputs: &Inputs) -> Conditions {
+        self.heartbeat.hear(inputs.heartbeat);
+        let rests = self.hand.rests(
+            inputs.force,
+            self.hold_enter,
+            self.hold_leave,
+            self.durations.hold,
+        );
+        let seen = Conditions::default()
+            .with(Condition::EmergencyStop, inputs.emergency_stop)
+            .with(Condition::EncoderInvalid, !inputs.encoder_valid)
+            .with(
+                Condition::HeartbeatLost,
+                self.heartbeat.lost(self.durations.heartbeat),
+            )
+            .with(Condition::FtInvalid, !inputs.ft_valid)
+            .with(Condition::Enabled, inputs.enable)
+            .with(Condition::EngageOn, inputs.engage)
+            .with(Condition::EngageRises, self.engage.rises(inputs.engage))
+            .with(
+                Condition::AcknowledgeRises,
+                self.acknowledge.rises(inputs.acknowledge),
+            )
+            .with(Condition::Quiet, inputs.hold || rests);
+        let good = self.state == State::Init && !seen.contain_any(FAULTS);
+        seen.with(
+            Condition::Prepared,
+            self.good.count(good) > self.durations.init,
+        )
+    }
+
+    fn stopped(&self) -> bool {
+        self.ramp.stopped(&self.durations)
+    }
+
+    /// What follows from the state that was just decided on.
+    fn entered(&mut self) {
+        match self.state {
+            State::Fault => self.latch(self.conditions),
+            State::Off => self.first_fault = Diagnostic::None,
+            _ => {}
+        }
+    }
+
+    /// Keeps the first fault.
+    fn latch(&mut self, conditions: Conditions) {
+        if self.first_fault == Diagnostic::None {
+            self.first_fault = fault(conditions);
+        }
+    }
+
+    /// The reason with the smallest number.
+    fn diagnostic(&self, report: &Report, long_saturated: bool) -> Diagnostic {
+        let running = matches!(self.state, State::Engaged | State::Hold);
+        let has = |condition| self.conditions.contain(condition);
+        let preparing = matches!(self.state, State::Off | State::Init);
+        match fault(self.conditions) {
+            Diagnostic::None => {}
+            fault => return fault,
+        }
+        [
+            (report.debt, Diagnostic::EnergyDebt),
+            (report.outside_bounds, Diagnostic::OutsideBounds),
+            (long_saturated, Diagnostic::Saturated),
+            (self.state == State::Fault, Diagnostic::NotAcknowledged),
+            (!has(Condition::Enabled), Diagnostic::NotEnabled),
+            (preparing, Diagnostic::Preparing),
+            (!has(Condition::EngageOn), Diagnostic::NotEngaged),
+            (!running, Diagnostic::EngageStuck),
+        ]
+        .into_iter()
+        .find_map(|(holds, diagnostic)| holds.then_some(diagnostic))
+        .unwrap_or(Diagnostic::None)
+    }
+}
+
+/// The first of the faults among `conditions`.
+fn fault(conditions: Conditions) -> Diagnostic {
+    FAULTS
+        .iter()
+        .find(|condition| conditions.contain(**condition))
+        .map_or(Diagnostic::None, |condition| Diagnostic::of(*condition))
+}
