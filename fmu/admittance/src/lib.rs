@@ -58,6 +58,7 @@
 //! | [`ledger`] | what the sampled law created, and the tank |
 //! | [`admittance`] | N axes under one ledger |
 //! | [`advice`] | gains that are accepted, but probably not meant |
+//! | [`hand`] | a hand too stiff for the gains: seen by its growing swing, answered with damping |
 //!
 //! No heap, no clock, no I/O, no unsafe, no panic; it depends on `nalgebra` and `libm`. The feature `serde` makes the
 //! state storable.
@@ -72,6 +73,7 @@
 pub mod admittance;
 pub mod advice;
 pub mod axis;
+pub mod hand;
 pub mod law;
 pub mod ledger;
 pub mod midpoint;
