@@ -4,10 +4,6 @@ use super::Watch;
 use crate::Real;
 use crate::real::{abs, sqrt};
 
-/// Share of the last half swing's amplitude by which x has to pass zero before the next one begins: noise at the crossing
-/// does not.
-const HYSTERESIS: Real = 0.1;
-
 /// Least ρ of a spring-like half swing: f_h within 37° of opposing x. A reflex delay of 30 ms at 3 Hz turns it by 32°.
 const LEAST_RHO: Real = 0.8;
 
@@ -21,7 +17,6 @@ pub struct Swing {
     xx: Real,
     ff: Real,
     xf: Real,
-    hysteresis: Real,
 }
 
 /// A half swing that has ended; sums over its samples.
@@ -50,7 +45,7 @@ impl Swing {
             xf: self.xf + x * f,
             ..self
         };
-        let crossed = self.side * x < -self.hysteresis || (self.side == 0.0 && x != 0.0);
+        let crossed = self.side * x < 0.0 || (self.side == 0.0 && x != 0.0);
         let late = on.samples > watch.longest();
         if !crossed && !late {
             return (on, None);
@@ -60,11 +55,6 @@ impl Swing {
                 true if x > 0.0 => 1.0,
                 true => -1.0,
                 false => 0.0,
-            },
-            hysteresis: if late {
-                0.0
-            } else {
-                HYSTERESIS * sqrt(2.0 * on.xx / on.samples)
             },
             ..Self::default()
         };
