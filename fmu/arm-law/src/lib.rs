@@ -2,8 +2,10 @@
 //!
 //! | module | what |
 //! |---|---|
+//! | [`joint_space`] | the law in joint space, with M_n(q) and C_n(q, dq) |
 //! | [`kinematics`] | position, Jacobian, smallest singular value and frame of link 3 |
 //! | [`limits`] | what the joints deliver of a torque: one common factor, or each joint clipped |
+//! | [`nominal`] | the nominal arm: M_n(q), C_n(q, dq), transport of the nominal velocity |
 //! | [`singularity`] | the damping that slows before a singularity |
 //! | [`supervision`] | when the law may act: states, faults, their diagnostics |
 //! | [`task_space`] | a tick: the law at the handle, its torques and its ledger at the joints |
@@ -19,8 +21,10 @@
     reason = "the paper's symbols with its capitals: Lambda_n, K_P, J, T"
 )]
 
+pub mod joint_space;
 pub mod kinematics;
 pub mod limits;
+pub mod nominal;
 pub mod singularity;
 pub mod supervision;
 pub mod task_space;
