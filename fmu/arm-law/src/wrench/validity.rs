@@ -175,7 +175,7 @@ impl Validity {
     /// What is wrong with this sample.
     fn found(&mut self, raw: &Wrench, flag: bool) -> Option<Fault> {
         let finite = raw.components().iter().all(|x| x.is_finite());
-        let last = self.last.filter(|_| finite);
+        let last = self.last;
         self.repetitions = counted(self.repetitions, last == Some(*raw));
         self.zeros = counted(self.zeros, *raw == Wrench::ZERO);
         self.last = finite.then_some(*raw); // no rate across a gap

@@ -186,6 +186,35 @@ fn signals_beyond_the_numbers_fail_and_leave_no_bias_that_is_none() {
 }
 
 #[test]
+fn without_limits_any_finite_mean_is_a_bias_and_no_other() {
+    let any = TareSettings {
+        time: N as f64 * T,
+        spread_force: 0.0,
+        spread_torque: 0.0,
+        max_force: 0.0,
+        max_torque: 0.0,
+        ..TareSettings::default()
+    };
+    let sensor = Sensor {
+        tare: any,
+        ..Sensor::default()
+    };
+    let last = |amplitude: f64| {
+        let mut conditioner = Conditioner::new(sensor, T).unwrap();
+        let ticks = (0..N).map(|k| {
+            conditioner.step(&Sample {
+                wrench: [if k % 2 == 0 { amplitude } else { -amplitude }; 6].into(),
+                tare: true,
+                ..Sample::default()
+            })
+        });
+        ticks.last().unwrap().tare
+    };
+    assert_eq!(last(1e6), TareState::Done);
+    assert_eq!(last(1e300), TareState::Failed(TareFailure::Unsteady));
+}
+
+#[test]
 fn numbers_are_those_of_the_interface() {
     let states = [
         TareState::Off,

@@ -171,6 +171,41 @@ fn the_way_back_does_not_rename_a_fault() {
 }
 
 #[test]
+fn a_fault_ends_when_the_signal_has_been_sound_for_the_recovery_time() {
+    for n in 1..300 {
+        let recovery_time = T * n as f64;
+        let checks = Checks {
+            recovery_time,
+            ..checks()
+        };
+        // A second fault within the recovery starts it anew.
+        let again = 1 + n / 2;
+        let ticks = run(checks, 3 * n + 5, |k, sound, _| {
+            (sound, k != 0 && k != again)
+        });
+        let faulty = ticks.iter().filter(|(fault, _)| fault.is_some()).count();
+        assert_eq!(faulty, again + n, "{n} samples");
+        assert!(ticks[faulty].0.is_none());
+    }
+}
+
+#[test]
+fn a_change_across_a_gap_is_no_jump() {
+    let ticks = run(checks(), 120, |k, sound, _| {
+        let mut components = sound.components();
+        match k {
+            50..60 => components[1] = f64::NAN,
+            60.. => components[1] += 9.0,
+            _ => {}
+        }
+        (components.into(), true)
+    });
+    let faulty: Vec<_> = (0..120).filter(|k| ticks[*k].0.is_some()).collect();
+    assert_eq!(faulty, (50..79).collect::<Vec<_>>());
+    assert!(faulty.iter().all(|k| ticks[*k].0 == Some(Fault::NotFinite)));
+}
+
+#[test]
 fn a_sound_sensor_has_no_fault() {
     let ticks = run(checks(), 20_000, |_, sound, _| (sound, true));
     assert!(ticks.iter().all(|(fault, _)| fault.is_none()));
