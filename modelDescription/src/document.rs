@@ -128,7 +128,8 @@ fn stepping(page: &mut String, interface: &Interface) {
     let _ = writeln!(
         page,
         "<h2>How it steps</h2>\n<p>{how}</p>\n<p>No output depends on an input at the same communication point. Quantities are in SI \
-         units. Bounds are included; a value outside of them, NaN or infinite is refused when it is set.</p>"
+         units. Bounds are included; a value outside of them, NaN or infinite is refused when it is set, but for inputs whose \
+         description says that they may be NaN.</p>"
     );
 }
 

@@ -16,7 +16,7 @@ pub trait Value: Sized + Clone + 'static {
     fn at<M>(access: &Access<M>) -> Option<fn(&mut M) -> &mut [Self]>;
 
     /// What is wrong with the value, if anything.
-    fn objection<M>(&self, access: &Access<M>) -> Option<String>;
+    fn objection<M>(&self, row: &Variable<M>) -> Option<String>;
 }
 
 impl Value for f64 {
@@ -30,8 +30,9 @@ impl Value for f64 {
         }
     }
 
-    fn objection<M>(&self, access: &Access<M>) -> Option<String> {
-        match access {
+    fn objection<M>(&self, row: &Variable<M>) -> Option<String> {
+        match &row.access {
+            _ if row.may_be_nan && !self.is_finite() => None,
             Access::Real { unit, .. } if !self.is_finite() => {
                 Some(format!("= {self} {}, expected a finite value", unit.name))
             }
@@ -54,8 +55,8 @@ impl Value for i32 {
         }
     }
 
-    fn objection<M>(&self, access: &Access<M>) -> Option<String> {
-        match access {
+    fn objection<M>(&self, row: &Variable<M>) -> Option<String> {
+        match &row.access {
             Access::Integer { min, max, .. } if self < min || self > max => {
                 Some(format!("= {self}, expected a value from {min} to {max}"))
             }
@@ -87,7 +88,7 @@ impl Value for bool {
         }
     }
 
-    fn objection<M>(&self, _: &Access<M>) -> Option<String> {
+    fn objection<M>(&self, _: &Variable<M>) -> Option<String> {
         None
     }
 }
@@ -103,7 +104,7 @@ impl Value for String {
         }
     }
 
-    fn objection<M>(&self, _: &Access<M>) -> Option<String> {
+    fn objection<M>(&self, _: &Variable<M>) -> Option<String> {
         None
     }
 }
@@ -114,8 +115,8 @@ impl Value for String {
 /// # Errors
 /// A [`Refusal`] that names the first parameter outside of its row's bounds, its value and what was expected.
 pub fn check_parameters<M: Model>(model: &mut M) -> Result<(), Refusal> {
-    fn first<M, V: Value>(values: &[V], access: &Access<M>) -> Option<(usize, String)> {
-        let objections = values.iter().map(|value| value.objection(access));
+    fn first<M, V: Value>(values: &[V], row: &Variable<M>) -> Option<(usize, String)> {
+        let objections = values.iter().map(|value| value.objection(row));
         objections.enumerate().find_map(|(i, o)| Some((i, o?)))
     }
     for row in M::DESCRIPTION.variables {
@@ -123,10 +124,8 @@ pub fn check_parameters<M: Model>(model: &mut M) -> Result<(), Refusal> {
             continue;
         }
         let objection = match row.access {
-            Access::Real { at, .. } => first(at(model), &row.access),
-            Access::Integer { at, .. } | Access::Enumeration { at, .. } => {
-                first(at(model), &row.access)
-            }
+            Access::Real { at, .. } => first(at(model), row),
+            Access::Integer { at, .. } | Access::Enumeration { at, .. } => first(at(model), row),
             Access::Boolean { .. } | Access::String { .. } => None,
         };
         if let Some((i, objection)) = objection {
@@ -212,7 +211,7 @@ impl<M: Model> Instance<M> {
             let objection = match (not_settable(variable, phase), value(i)) {
                 (Some(reason), _) => Some(reason.to_owned()),
                 (None, Err(reason)) => Some(reason.to_owned()),
-                (None, Ok(value)) => value.objection(&variable.access),
+                (None, Ok(value)) => value.objection(variable),
             };
             if let Some(objection) = objection {
                 return refused(format!("{} {objection}", variable.element_name(element)));

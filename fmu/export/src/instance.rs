@@ -304,6 +304,7 @@ pub(crate) fn instance_name(name: Option<&str>) -> CString {
 mod tests {
     use super::*;
     use crate::Refusal;
+    use crate::access::Value;
     use declaration::Variability::Continuous;
     use declaration::{Declare, Description, Experiment, Stepping, real, unit};
 
@@ -312,6 +313,7 @@ mod tests {
     struct Sensor {
         sound: f64,
         failing: [f64; 2],
+        seen: f64,
     }
 
     impl Declare for Sensor {
@@ -330,6 +332,7 @@ mod tests {
                 real!(failing[2], unit::NEWTON)
                     .output(Continuous)
                     .may_be_nan(),
+                real!(seen, unit::NEWTON).input(Continuous).may_be_nan(),
             ],
         };
     }
@@ -346,7 +349,13 @@ mod tests {
 
     #[test]
     fn nan_leaves_a_model_only_where_its_row_says_so_and_infinity_nowhere() {
-        let check = |sound, failing| check_outputs(&mut Sensor { sound, failing });
+        let check = |sound, failing| {
+            check_outputs(&mut Sensor {
+                sound,
+                failing,
+                seen: f64::INFINITY,
+            })
+        };
         assert_eq!(check(1.0, [2.0, f64::NAN]), Ok(()));
         let refused = |name, value| Err(format!("{name} = {value} N, expected a finite value"));
         assert_eq!(check(f64::NAN, [0.0; 2]), refused("sound", f64::NAN));
@@ -355,5 +364,16 @@ mod tests {
             check(0.0, [f64::NAN, infinite]),
             refused("failing[2]", infinite)
         );
+    }
+    #[test]
+    fn what_is_not_finite_enters_a_model_only_where_its_row_says_so() {
+        let [sound, _, seen] = Sensor::DESCRIPTION.variables else {
+            panic!("three rows")
+        };
+        for value in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+            assert_eq!(value.objection(seen), None);
+            let refused = format!("= {value} N, expected a finite value");
+            assert_eq!(value.objection(sound), Some(refused));
+        }
     }
 }

@@ -128,7 +128,8 @@ pub struct Variable<M: 'static> {
     pub variability: Variability,
     /// Inputs and parameters on which an output's value right after initialization depends, by row name.
     pub initially_from: &'static [&'static str],
-    /// Whether NaN may leave the model here, as a sensor's failure. Elsewhere NaN and infinity fail the step.
+    /// Whether a sensor's failure may pass here: NaN out of the model, NaN and infinity into it. Elsewhere they fail the
+    /// step, or the Set.
     pub may_be_nan: bool,
     /// What it is: sign, frame, equation label.
     pub about: &'static str,
@@ -199,13 +200,15 @@ impl<M> Variable<M> {
         self
     }
 
-    /// NaN may leave the model here: a sensor that can fail so. For outputs of type Real.
+    /// A sensor that can fail so: NaN may leave the model here, or NaN and infinity may enter it, which the model then
+    /// handles. For outputs and inputs of type Real.
     ///
     /// # Panics
-    /// When the row is not a Real that the model computes (at compile time: rows are constants).
+    /// When the row is not a Real that the model computes or reads (at compile time: rows are constants).
     pub const fn may_be_nan(mut self) -> Self {
-        if !(self.is_calculated() && matches!(self.access, Access::Real { .. })) {
-            panic!("may_be_nan() is for Real rows that the model computes");
+        let passes = self.is_calculated() || matches!(self.causality, Causality::Input);
+        if !(passes && matches!(self.access, Access::Real { .. })) {
+            panic!("may_be_nan() is for Real rows that the model computes or reads");
         }
         self.may_be_nan = true;
         self
