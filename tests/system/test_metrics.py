@@ -52,6 +52,25 @@ def test_lowest_change_is_negative_once_the_column_falls_below_its_start() -> No
     assert metrics.lowest_change(recording(time=TIME, E=column), column="E") == -0.5
 
 
+def test_the_largest_step_is_that_into_a_tick_of_the_window() -> None:
+    x = np.zeros(1000)
+    x[200:] = 1.0  # into t = 2.00 s
+    x[300:] = -4.0
+    run = recording(time=TIME, x=x, y=0.1 * TIME)
+    assert metrics.largest_step(run, columns=("x", "y"), after=2.0, before=3.0) == 1.0
+    assert metrics.largest_step(run, columns=("x",), after=2.01, before=3.0) == 0.0
+    assert metrics.largest_step(run, columns=("y",), after=0.0, before=3.0) == pytest.approx(0.001)
+    assert metrics.largest_step(run, columns=("y", "x"), after=2.5, before=3.01) == 5.0
+
+
+def test_ticks_until_counts_from_the_first_tick_of_the_window() -> None:
+    state = np.where(TIME < 5.0, 3, 6)
+    run = recording(time=TIME, state=state)
+    assert metrics.ticks_until(run, column="state", value=6, after=4.0) == 100.0
+    assert metrics.ticks_until(run, column="state", value=6, after=5.0) == 0.0
+    assert math.isnan(metrics.ticks_until(run, column="state", value=2, after=0.0))
+
+
 def test_rise_is_taken_above_the_mean_of_its_own_window() -> None:
     run = recording(time=TIME, z=np.where(TIME < 5.0, 1.0, 1.0 + 0.1 * (TIME - 5.0)))
     value = metrics.rise(run, column="z", after=6.0, before=8.0, above_mean=(1.0, 4.0))

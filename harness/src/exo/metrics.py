@@ -148,6 +148,22 @@ def lowest_change(run: Recording, *, column: str) -> float:
 
 
 @metric
+def largest_step(run: Recording, *, columns: tuple[str, ...], after: float, before: float) -> float:
+    """Largest change of any of the columns from one tick to the next, the later of which lies in the window."""
+    later = np.flatnonzero(window(run.time, after=after, before=before))
+    later = later[later > 0]
+    return max(float(np.max(np.abs(run[column][later] - run[column][later - 1]))) for column in columns)
+
+
+@metric
+def ticks_until(run: Recording, *, column: str, value: float, after: float) -> float:
+    """Number of ticks from `after` until the column first has this value."""
+    since = np.flatnonzero(window(run.time, after=after, before=None))
+    found = run[column][since] == value
+    return float(np.argmax(found)) if found.any() else math.nan
+
+
+@metric
 def release_delay(run: Recording, *, position: str, wall: str, margin: float, after: float) -> float:
     """Time from `after` to the first q < wall − margin (s). `wall` names the parameter with the wall's position."""
     free = window(run.time, after=after, before=None) & (run[position] < run.parameter(wall) - margin)

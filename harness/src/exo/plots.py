@@ -14,7 +14,7 @@ from exo import poses, theory
 from exo.errors import ScenarioError
 from exo.metrics import loop_of, measured_response, window
 from exo.recording import Recording
-from exo.scenario import Figure, Panel
+from exo.scenario import Bands, Figure, Panel
 
 STYLE: dict[str, Any] = {
     "font.family": "serif",
@@ -74,6 +74,8 @@ def _panel(axes: Any, panel: Panel, recordings: Mapping[str, Recording]) -> None
         look = {"color": curve.color} if curve.color else {}
         axes.plot(time, values, "--" if curve.dashed else "-", label=curve.label, **look)
         axes.set_xlim(left, right)
+    if panel.bands:
+        _bands(axes, panel.bands, recordings[panel.bands.case])
     for mark in panel.marks:
         axes.axhline(mark, color="#555555", linestyle=":", linewidth=0.9)
     axes.set_ylabel(panel.y_label)
@@ -82,6 +84,28 @@ def _panel(axes: Any, panel: Panel, recordings: Mapping[str, Recording]) -> None
         axes.set_ylim(*panel.y_range)
     if len(panel.curves) > 1:
         axes.legend(loc="best", ncols=min(len(panel.curves), 3))
+
+
+def _bands(axes: Any, bands: Bands, run: Recording) -> None:
+    """One band per stretch of one value, with its label once, above the panel."""
+    values = run[bands.column]
+    starts = np.concatenate([[0], np.flatnonzero(np.diff(values)) + 1])
+    ends = np.append(run.time[starts[1:]], run.time[-1])
+    colors = mpl.colormaps["Pastel1"].colors  # type: ignore[attr-defined]
+    shown: dict[int, Any] = {}
+    for start, end in zip(starts, ends, strict=True):
+        value = int(values[start])
+        shown[value] = axes.axvspan(run.time[start], end, color=colors[value % len(colors)], linewidth=0.0, zorder=0)
+    ordered = sorted(shown)
+    legend = axes.legend(
+        [shown[value] for value in ordered],
+        [bands.labels[value] for value in ordered],
+        loc="lower left",
+        bbox_to_anchor=(0.0, 1.0),
+        ncols=len(ordered),
+        borderaxespad=0.2,
+    )
+    axes.add_artist(legend)
 
 
 def _thinned(time: Any, values: Any) -> tuple[Any, Any]:

@@ -35,7 +35,8 @@ Columns = Annotated[tuple[Qualified, ...], BeforeValidator(expand_names)]
 Positive = Annotated[float, Field(gt=0.0)]
 NotNegative = Annotated[float, Field(ge=0.0)]
 
-#: Component name that stands for the scenario's profiles in `inputs`. A Boolean input is true from a half on.
+#: Component name that stands for the scenario's profiles in `inputs`. A Boolean input is true from a half on,
+#: an Integer takes the nearest one.
 PROFILE = "profile"
 
 
@@ -153,6 +154,15 @@ class Curve(Data):
     dashed: bool = False
 
 
+class Bands(Data):
+    """Coloured bands behind the curves: where a column that counts has which value."""
+
+    case: Identifier
+    column: Qualified
+    #: What the values 0, 1, … mean.
+    labels: Annotated[tuple[str, ...], Field(min_length=1)]
+
+
 class Panel(Data):
     """One pair of axes. `y_range` and the marks are in the unit of the axis."""
 
@@ -163,6 +173,7 @@ class Panel(Data):
     x_range: tuple[float, float] | None = None
     #: Dotted horizontal lines, for instance the wall or a limit.
     marks: tuple[float, ...] = ()
+    bands: Bands | None = None
 
 
 class Poses(Data):
@@ -198,7 +209,8 @@ class Figure(Data):
     def cases(self) -> list[str]:
         """Cases that it names."""
         drawn = [self.poses.case] if self.poses else []
-        return drawn + [curve.case for panel in self.panels for curve in panel.curves]
+        banded = [panel.bands.case for panel in self.panels if panel.bands]
+        return drawn + banded + [curve.case for panel in self.panels for curve in panel.curves]
 
 
 class Scenario(Data):

@@ -195,13 +195,24 @@ def _wire(plan: Plan, parts: dict[str, Part], time: NDArray[np.float64]) -> list
         kind, column = parts[to].input(name)
         if component == PROFILE:
             values = profiles[output]
-            parts[to].u[kind][:, column] = values >= TRUE_FROM if kind == "Boolean" else values
+            parts[to].u[kind][:, column] = _of_kind(values, kind)
             continue
         stepped_before = order.index(component) < order.index(to)
         late = plan.coupling == "exchange_at_once" or (plan.coupling == "one_sample_delay" and key in plan.delayed)
         source, ahead = parts[component], int(stepped_before and not late)
         wires.append(Wire(kind, parts[to], column, source, source.output(output, kind), ahead))
     return wires
+
+
+def _of_kind(values: NDArray[np.float64], kind: Kind) -> NDArray[Any]:
+    """A profile as an input of this kind takes it: a Boolean is true from a half on, an Integer the nearest one."""
+    match kind:
+        case "Boolean":
+            return values >= TRUE_FROM
+        case "Integer":
+            return np.rint(values)
+        case _:
+            return values
 
 
 def _initialize(plan: Plan, parts: dict[str, Part], wires: list[Wire]) -> None:

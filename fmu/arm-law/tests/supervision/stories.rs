@@ -1,5 +1,6 @@
 //! What an operator meets, told tick by tick.
 
+use arm_law::supervision::watch::Edge;
 use arm_law::supervision::{
     Demand, Diagnostic, Inputs, Parameters, Report, State, Status, Supervisor,
 };
@@ -160,6 +161,15 @@ fn an_engage_that_is_stuck_at_true_never_engages() {
     assert_eq!(story.tick().1.diagnostic, Diagnostic::NotEngaged);
     story.inputs.engage = true;
     assert_eq!(story.state(), State::Engaged);
+}
+
+#[test]
+fn what_is_true_from_the_beginning_does_not_rise() {
+    let mut edge = Edge::new();
+    assert!(!edge.rises(true));
+    assert!(!edge.rises(false));
+    assert!(edge.rises(true));
+    assert!(!edge.rises(true));
 }
 
 #[test]
