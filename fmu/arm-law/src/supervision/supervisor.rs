@@ -58,7 +58,7 @@ pub enum Demand {
     Run {
         /// Share of its force that reaches the robot and, where the law says so, the nominal; in [0, 1].
         authority: Real,
-        /// 1: the nominal is free. Below: its velocity stays between 0 and this share of the one that it had at the last
+        /// 1: the nominal is free. Below: its speed along an axis stays within this share of the one that it had at the last
         /// tick at which it was free; 0: it stands still.
         freedom: Real,
     },
@@ -73,7 +73,7 @@ pub struct Report {
     pub debt: bool,
     /// Whether the motion exceeded the bounds of the passivity argument.
     pub outside_bounds: bool,
-    /// Whether a limit on force or torque acted.
+    /// Whether the robot got less than the law asked for.
     pub saturated: bool,
 }
 
@@ -181,7 +181,8 @@ impl Supervisor {
             self.entered();
             self.ramp.advance(before, self.state, &self.durations);
         }
-        let limited = self.state.acts() && report.saturated;
+        // While it fades in or out the law gets less than it asks for without any limit.
+        let limited = self.ramp.authority() >= 1.0 && report.saturated;
         let long = self.saturated.count(limited) >= self.durations.saturation.max(1);
         Status {
             state: self.state,

@@ -70,14 +70,14 @@ pub const RULES: &[Rule] = &[
         when: &[HeartbeatLost],
         unless: &[],
         to: SoftStop,
-        why: "nobody is known to watch; the position is good, so the load is let down gently",
+        why: "nobody is known to watch; the position is good, so the load loses its support gradually",
     },
     Rule {
         from: &[Engaged, Hold],
         when: &[FtInvalid],
         unless: &[],
         to: SoftStop,
-        why: "nobody can be followed; the position is good, so the load is let down gently",
+        why: "nobody can be followed; the position is good, so the load loses its support gradually",
     },
     Rule {
         from: &[Engaged, Hold],
