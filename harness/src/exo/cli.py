@@ -1,7 +1,8 @@
 """The command `exo`. Exit codes: 0 good, 1 a failed verdict (or difference, or problem), 2 a wrong command."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
+from math import isfinite
 from pathlib import Path
 from typing import Annotated
 
@@ -12,7 +13,7 @@ from rich.table import Table
 
 from exo import benchmark as bench
 from exo import compare as comparison
-from exo import experiment, report, results, scenario, validate
+from exo import experiment, report, results, scenario, tool, validate
 from exo.errors import ExoError, ScenarioError
 from exo.experiment import Experiment
 from exo.fmu import find_fmu_dir
@@ -118,6 +119,40 @@ def benchmark(fmu_dir: FmuDir = None) -> None:
         speed = bench.measure(fmu_dir=find_fmu_dir(fmu_dir))
     console.print(speed.sentence())
     raise typer.Exit(0 if speed.factor >= bench.WANTED_FACTOR else 1)
+
+
+@app.command("identify-tool")
+def identify_tool(
+    readings: Annotated[Path, typer.Argument(help="CSV: q[1..3], ft.force[1..3], ft.torque[1..3], a row a reading.")],
+    mount: Annotated[str, typer.Option(help="ft.mount of the sensor: roll,pitch,yaw in rad.")] = "0,0,0",
+) -> None:
+    """Prints mass and centre of gravity of what hangs on the force sensor, from readings at rest in several poses."""
+    with sentences():
+        angles = parse_angles(mount)
+        q, force, torque = tool.read(readings)
+        found = tool.identify(R=tool.orientation(q=q, mount=angles), force=force, torque=torque)
+
+    def numbers(values: Iterable[float]) -> str:
+        return f"[{', '.join(f'{x:.5f}' for x in values)}]"
+
+    console.print(
+        f'"controller.ft.mass" = {found.mass:.5f}  # kg, standard error {found.mass_error:.2g}\n'
+        f'"controller.ft.cog" = {numbers(found.cog)}  # m, standard errors {numbers(found.cog_error)}\n'
+        f"# bias: {numbers(found.bias_force)} N, {numbers(found.bias_torque)} N·m; a tare finds it anew\n"
+        f"# left of {len(q)} readings: {found.force_rest:.2g} N, {found.torque_rest:.2g} N·m root mean square",
+        markup=False,
+    )
+
+
+def parse_angles(text: str) -> list[float]:
+    """Three angles between commas."""
+    try:
+        angles = [float(part) for part in text.split(",")]
+    except ValueError:
+        angles = []
+    if len(angles) != 3 or not all(isfinite(angle) for angle in angles):
+        raise ScenarioError(f"--mount {text}: expected roll,pitch,yaw in rad")
+    return angles
 
 
 def parse_settings(settings: list[str]) -> dict[str, str]:
