@@ -25,7 +25,7 @@
 //! | f_h | f_profile + f_hand | N | [`HumanOperator::f_h`] |
 //! | f_profile | Σ A w(t) sin(2π f t + φ), Σ A w(t) | N | [`profile::Segments::force`] |
 //! | w | clip((t − t_on)/ramp) − clip((t − t_off)/ramp) | 1 | [`profile::window`] |
-//! | f_hand | k_h (p_intended − p(t − delay)) − b_h dp(t − delay) | N | [`hand::Hand::force`] |
+//! | f_hand | k_h (p_intended − p(t − delay)) − b_h dp(t − delay), 0 from let_go on | N | [`hand::Hand::force`] |
 //!
 //! 1. [`initialize`](export::Model::initialize) shows the force at the start time, with the inputs as they are then.
 //! 2. [`step`](export::Model::step) from t to t + h shows the force at t + h. The inputs set before it count as those at
@@ -76,6 +76,8 @@ pub struct HumanOperator {
     pub p_intended: [f64; 3],
     /// Parameter: the hand wants to be where the handle is at initialization.
     pub intended_from_start: bool,
+    /// Parameter: time from which on the hand holds no more (s).
+    pub let_go: f64,
 
     /// State, not in the interface: the hand, built anew by each initialization.
     pub hand: Hand,
@@ -96,6 +98,7 @@ impl Default for HumanOperator {
             delay: 0.0,
             p_intended: [0.0; 3],
             intended_from_start: true,
+            let_go: 1e9,
             hand: Hand::default(),
         }
     }

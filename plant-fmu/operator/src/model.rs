@@ -48,7 +48,11 @@ impl HumanOperator {
     /// Outputs at `t`.
     fn show(&mut self, t: f64) {
         self.f_profile = self.segment.force(t);
-        self.f_hand = self.hand.force();
+        self.f_hand = if t < self.let_go {
+            self.hand.force()
+        } else {
+            [0.0; 3]
+        };
         self.f_h = core::array::from_fn(|i| self.f_profile[i] + self.f_hand[i]);
     }
 }

@@ -50,12 +50,12 @@ impl Declare for HumanOperator {
             real!(dp[3], unit::METRE_PER_SECOND).input(Continuous)
                 .about("velocity of the handle, base frame; set before a step it counts as the one at the step's end"),
             real!(f_h[3], unit::NEWTON).output(Continuous)
-                .initially_from(plan!("p[i]", "dp[i]", "k_h", "b_h", "p_intended[i]", "intended_from_start"))
+                .initially_from(plan!("p[i]", "dp[i]", "k_h", "b_h", "p_intended[i]", "intended_from_start", "let_go"))
                 .about("force of the human on the robot at the handle, base frame: f_profile + f_hand"),
             real!(f_profile[3], unit::NEWTON).output(Continuous).initially_from(plan!())
                 .about("planned part of f_h: the sum of the segments"),
             real!(f_hand[3], unit::NEWTON).output(Continuous)
-                .initially_from(&["p[i]", "dp[i]", "k_h", "b_h", "p_intended[i]", "intended_from_start"])
+                .initially_from(&["p[i]", "dp[i]", "k_h", "b_h", "p_intended[i]", "intended_from_start", "let_go"])
                 .about("part of f_h by which the hand pulls: k_h (p_intended - p) - b_h dp, p and dp as they were a delay ago"),
             integer!("segment[i].axis" => segment.axis[16]).parameter(Fixed).within_integers(1, 3)
                 .about("axis of the base frame along which the segment pushes: 1 x, 2 y, 3 z"),
@@ -83,6 +83,8 @@ impl Declare for HumanOperator {
                 .about("where the hand wants to be, base frame, unless intended_from_start"),
             boolean!(intended_from_start).parameter(Fixed)
                 .about("the hand wants to be where p is at initialization; p_intended is not used"),
+            real!(let_go, unit::SECOND).parameter(Fixed).within(-1e9, 1e9)
+                .about("time from which on the hand holds no more and f_hand is 0; 1e9: never"),
         ],
     };
 }

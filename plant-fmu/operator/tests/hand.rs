@@ -174,3 +174,43 @@ fn a_saved_state_continues_bit_for_bit() {
     run(&mut restored, 1500, 3000);
     assert_eq!(human, restored);
 }
+
+#[test]
+fn a_hand_that_lets_go_pulls_no_more_and_the_plan_goes_on() {
+    let mut human = HumanOperator {
+        p: P_0,
+        k_h: 300.0,
+        let_go: 1.0,
+        ..HumanOperator::default()
+    };
+    human.segment.kind[0] = 2; // constant
+    human.segment.amplitude[0] = 3.0;
+    human.initialize(0.0, &mut Log::silent()).unwrap();
+    human.p[1] += 0.1;
+    for (t, h, f_hand) in [
+        (0.0, 0.5, -30.0),
+        (0.5, 0.25, -30.0),
+        (0.75, 0.25, 0.0),
+        (1.0, 1.0, 0.0),
+    ] {
+        let step = Step {
+            start_time: 0.0,
+            t,
+            h,
+        };
+        human.step(step, &mut Log::silent()).unwrap();
+        // Rounding: 300 N/m · 0.1 m · 2⁻⁵².
+        assert!((human.f_hand[1] - f_hand).abs() < 1e-13, "{t} s");
+        assert_eq!(
+            human.f_h,
+            [3.0 + human.f_hand[0], human.f_hand[1], human.f_hand[2]]
+        );
+    }
+    let mut late = HumanOperator {
+        k_h: 300.0,
+        ..human
+    };
+    late.let_go = -1.0;
+    late.initialize(0.0, &mut Log::silent()).unwrap();
+    assert_eq!(late.f_hand, [0.0; 3]);
+}

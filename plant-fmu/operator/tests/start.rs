@@ -101,7 +101,7 @@ fn change(row: &Variable<HumanOperator>, i: usize, human: &mut HumanOperator) ->
 
 #[test]
 fn declared_initial_dependencies_are_the_true_ones() {
-    // Two starts at which everything that can matter does: half-way in both ramps, the hand on.
+    // Starts at which everything that can matter does: half-way in both ramps, the hand on, the hand just off.
     let mut base = HumanOperator {
         p: [0.1, 0.2, 0.3],
         dp: [0.1, 0.2, 0.3],
@@ -121,11 +121,15 @@ fn declared_initial_dependencies_are_the_true_ones() {
         intended_from_start: false,
         ..base.clone()
     };
+    let letting_go = HumanOperator {
+        let_go: 0.03,
+        ..base.clone()
+    };
     let rows = HumanOperator::DESCRIPTION.variables;
     for output in rows.iter().filter(|row| row.causality == Causality::Output) {
         let mut found = BTreeSet::new();
         for row in rows.iter().filter(|row| row.causality != Causality::Output) {
-            for base in [&base, &elsewhere] {
+            for base in [&base, &elsewhere, &letting_go] {
                 for i in 0..3 {
                     let mut changed = base.clone();
                     let there = change(row, i, &mut changed);
