@@ -43,6 +43,7 @@
 //! | [`arm`] | the powered upper limb: a geared 3-DoF arm with payload, table and wall; see its page |
 //! | [`pair`] | two such arms that share one payload rigidly |
 //! | [`testbed`] | the 1-DoF plant: parameters, state, start, run |
+//! | [`drive`] | an actuator with a position loop of its own, in place of a force |
 //! | [`substep`] | its implicit equation, solved in closed form |
 //! | [`energy`] | works, losses and stores, each by its own formula |
 //! | [`sum`] | a number that many small additions do not wear down |
@@ -57,6 +58,7 @@
 )]
 
 pub mod arm;
+pub mod drive;
 pub mod energy;
 pub mod friction;
 pub mod pair;

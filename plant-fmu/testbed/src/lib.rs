@@ -18,6 +18,7 @@
 //! 1. Parameters are checked by [`initialize`](export::Model::initialize); the outputs then show the start state.
 //! 2. [`step`](export::Model::step) holds the inputs and splits the communication step into equal substeps no longer
 //!    than `substep`, so it ends exactly at t + h. The plant keeps no time of its own.
+//!    With `drive.mode` = 2 the actuator is a position drive that takes `q_d` and `dq_d` and closes its loop every substep.
 //! 3. Outputs follow from the state at t + h; forces (`tau_f`, `tau_e`) are means over the last substep. No output
 //!    depends on an input set after the step: there is no direct feedthrough.
 //!
@@ -34,6 +35,7 @@ pub mod model;
 pub mod variables;
 
 use mechanics::Energy;
+use mechanics::drive::Drive;
 use mechanics::friction::Friction;
 use mechanics::testbed::{self as plant, Parameters};
 use mechanics::wall::Wall;
@@ -75,8 +77,26 @@ pub struct Testbed {
     /// Parameter: longest substep (s).
     pub substep: f64,
 
+    /// Input: position command of the drive (m).
+    pub q_d: f64,
+    /// Input: velocity command of the drive (m/s).
+    pub dq_d: f64,
+    /// Output: force that the actuator applied, mean over the step (N).
+    pub tau_drive: f64,
+    /// Parameters: the actuator.
+    pub drive: Actuator,
+
     /// State, not in the interface: the plant, built anew by each initialization.
     pub plant: plant::Testbed,
+}
+
+/// The actuator: a force, or a drive with a position loop.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Actuator {
+    /// Parameter: 1 applies `tau_a`, 2 is a position drive.
+    pub mode: i32,
+    /// Parameters: the position drive.
+    pub servo: Drive,
 }
 
 impl Default for Testbed {
@@ -99,6 +119,13 @@ impl Default for Testbed {
             q_start: 0.0,
             dq_start: 0.0,
             substep: 8e-5,
+            q_d: 0.0,
+            dq_d: 0.0,
+            tau_drive: 0.0,
+            drive: Actuator {
+                mode: 1,
+                servo: Drive::default(),
+            },
             plant: plant::Testbed::default(),
         }
     }

@@ -3,11 +3,27 @@
 use crate::Testbed;
 use crate::variables::SUBSTEP;
 use export::{Log, Model, Refusal, Step};
+use mechanics::drive::{Command, Drive};
 use mechanics::testbed::{self as plant, Forces, Parameters};
 
 impl Model for Testbed {
     fn initialize(&mut self, _start_time: f64, _log: &mut Log<'_>) -> Result<(), Refusal> {
         SUBSTEP.check(self.substep).map_err(Refusal::new)?;
+        Drive::GAIN
+            .check(self.drive.servo.K)
+            .map_err(Refusal::new)?;
+        Drive::RATIO
+            .check(self.drive.servo.K_P)
+            .map_err(Refusal::new)?;
+        Drive::FORCE
+            .check(self.drive.servo.tau_max)
+            .map_err(Refusal::new)?;
+        if !matches!(self.drive.mode, 1 | 2) {
+            return Err(Refusal(format!(
+                "drive.mode = {}: expected 1 (torque) or 2 (position_servo)",
+                self.drive.mode
+            )));
+        }
         let parameters = Parameters {
             M: self.M,
             friction: self.friction,
@@ -15,6 +31,7 @@ impl Model for Testbed {
         };
         self.plant =
             plant::Testbed::new(parameters, self.q_start, self.dq_start).map_err(Refusal::new)?;
+        self.tau_drive = 0.0;
         self.show();
         Ok(())
     }
@@ -31,7 +48,17 @@ impl Model for Testbed {
             tau_h,
             tau_d,
         };
-        self.plant.advance(&forces, n, dt);
+        self.tau_drive = if self.drive.mode == 2 {
+            let command = Command {
+                q_d: self.q_d,
+                dq_d: self.dq_d,
+            };
+            self.plant
+                .advance_driven(&self.drive.servo, &command, &forces, n, dt)
+        } else {
+            self.plant.advance(&forces, n, dt);
+            tau_a
+        };
         self.show();
         if !(self.q.is_finite() && self.dq.is_finite() && self.energy.residual.is_finite()) {
             return Err(Refusal(format!(

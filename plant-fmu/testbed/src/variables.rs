@@ -2,8 +2,12 @@
 
 use crate::Testbed;
 use declaration::Variability::{Continuous, Fixed};
-use declaration::{Declare, Description, Experiment, Stepping, Variable, real, unit};
+use declaration::{
+    Declare, Description, Enumeration, Experiment, Item, Stepping, Variable, enumeration, real,
+    unit,
+};
 use mechanics::Range;
+use mechanics::drive::Drive;
 use mechanics::friction::Friction;
 use mechanics::testbed::{self as plant, Parameters};
 use mechanics::wall::Wall;
@@ -14,6 +18,24 @@ pub const SUBSTEP: Range = Range {
     unit: "s",
     low: 1e-7,
     high: 1e-2,
+};
+
+/// The type of `drive.mode`.
+pub const DRIVE: Enumeration = Enumeration {
+    name: "Drive",
+    about: "What the actuator takes",
+    items: &[
+        Item {
+            value: 1,
+            name: "torque",
+            about: "the force tau_a",
+        },
+        Item {
+            value: 2,
+            name: "position_servo",
+            about: "q_d and dq_d: the drive closes its own loop every substep, tau_a is not used",
+        },
+    ],
 };
 
 const fn within(row: Variable<Testbed>, range: Range) -> Variable<Testbed> {
@@ -81,6 +103,20 @@ impl Declare for Testbed {
                 .about("start velocity"),
             within(real!(substep, unit::SECOND).parameter(Fixed), SUBSTEP)
                 .about("longest substep: a step is split into equal ones no longer than this"),
+            real!(q_d, unit::METRE).input(Continuous)
+                .about("position command, held during the step; used by the position drive only"),
+            real!(dq_d, unit::METRE_PER_SECOND).input(Continuous)
+                .about("velocity command, held during the step; used by the position drive only"),
+            real!(tau_drive, unit::NEWTON).output(Continuous)
+                .about("force that the actuator applied to the mass, mean over the step that ended, positive along +q; 0 at the start"),
+            enumeration!(drive.mode, &DRIVE).parameter(Fixed)
+                .about("what the actuator takes"),
+            within(real!("drive.K" => drive.servo.K, unit::NEWTON_SECOND_PER_METRE).parameter(Fixed), Drive::GAIN)
+                .about("velocity gain of the position drive"),
+            within(real!("drive.K_P" => drive.servo.K_P, unit::PER_SECOND).parameter(Fixed), Drive::RATIO)
+                .about("ratio of the position gain to the velocity gain of the position drive"),
+            within(real!("drive.tau_max" => drive.servo.tau_max, unit::NEWTON).parameter(Fixed), Drive::FORCE)
+                .about("largest absolute force of the position drive"),
         ],
     };
 }

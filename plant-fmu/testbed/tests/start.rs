@@ -74,6 +74,22 @@ fn a_refused_parameter_is_named_with_its_value_and_range() {
         "M = -6.0 kg: expected 0.001 to 1000000.0 kg"
     );
     assert_eq!(
+        refused(|p| p.drive.servo.K = -1.0),
+        "drive.K = -1.0 N.s/m: expected 0.0 to 1000000.0 N.s/m"
+    );
+    assert_eq!(
+        refused(|p| p.drive.servo.K_P = f64::NAN),
+        "drive.K_P = NaN 1/s: expected 0.0 to 1000000.0 1/s"
+    );
+    assert_eq!(
+        refused(|p| p.drive.servo.tau_max = -0.5),
+        "drive.tau_max = -0.5 N: expected 0.0 to 1000000.0 N"
+    );
+    assert_eq!(
+        refused(|p| p.drive.mode = 0),
+        "drive.mode = 0: expected 1 (torque) or 2 (position_servo)"
+    );
+    assert_eq!(
         refused(|p| p.substep = 0.0),
         "substep = 0.0 s: expected 1e-7 to 0.01 s"
     );
@@ -104,8 +120,17 @@ fn declared_initial_dependencies_are_the_true_ones() {
             .filter(|row| row.causality != Causality::Output)
             .filter(|row| {
                 let mut changed = base.clone();
-                let Access::Real { at, .. } = row.access else {
-                    panic!("{} is a Real", row.name)
+                let at = match row.access {
+                    Access::Real { at, .. } => at,
+                    Access::Enumeration { at, .. } => {
+                        at(&mut changed)[0] = 2; // the position drive
+                        let (mut before, mut after) = (
+                            initialized(base.clone()).unwrap(),
+                            initialized(changed).unwrap(),
+                        );
+                        return real(output, &mut before) != real(output, &mut after);
+                    }
+                    _ => panic!("{} is a Real or a choice", row.name),
                 };
                 at(&mut changed)[0] =
                     0.9 * at(&mut changed)[0] - if row.name == "q_start" { 0.1 } else { 0.0 };
@@ -135,7 +160,10 @@ fn the_names_that_others_rely_on_are_there() {
             .map(|row| row.name)
             .collect()
     };
-    assert_eq!(names(Causality::Input), ["tau_a", "tau_h", "tau_d"]);
+    assert_eq!(
+        names(Causality::Input),
+        ["tau_a", "tau_h", "tau_d", "q_d", "dq_d"]
+    );
     for name in [
         "q",
         "dq",

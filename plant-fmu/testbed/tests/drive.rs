@@ -1,0 +1,91 @@
+//! The actuator: a force, or a drive with a position loop.
+
+#![allow(non_snake_case, reason = "the paper's symbols")]
+
+use export::{Log, Model, Step};
+use mechanics::friction::Friction;
+use mechanics::wall::Wall;
+use testbed::Testbed;
+
+/// Without friction and wall, the position drive on.
+fn driven(change: impl FnOnce(&mut Testbed)) -> Testbed {
+    let mut plant = Testbed::default();
+    plant.drive.mode = 2;
+    plant.friction = Friction { F_c: 0.0, b: 0.0 };
+    plant.wall.q = Wall::NONE;
+    change(&mut plant);
+    plant.initialize(0.0, &mut Log::silent()).unwrap();
+    plant
+}
+
+fn run(plant: &mut Testbed, h: f64, steps: u32) {
+    for k in 0..steps {
+        let step = Step {
+            start_time: 0.0,
+            t: f64::from(k) * h,
+            h,
+        };
+        plant.step(step, &mut Log::silent()).unwrap();
+    }
+}
+
+#[test]
+fn the_drive_follows_the_second_order_response_of_its_loop() {
+    // M ddq + K dq + K K_P q = K K_P q_d: ω_n = √(K K_P/M), ζ = K/(2 M ω_n).
+    let (M, K, K_P, q_d) = (6.0_f64, 30.0, 10.0, 0.01);
+    let (omega, zeta) = ((K * K_P / M).sqrt(), K / (2.0 * (M * K * K_P).sqrt()));
+    let damped = omega * (1.0 - zeta * zeta).sqrt();
+    let mut plant = driven(|p| (p.q_d, p.substep) = (q_d, 1e-6));
+    for k in 1..=20 {
+        run(&mut plant, 0.05, 1);
+        let t = 0.05 * f64::from(k);
+        let swing = (damped * t).cos() + zeta * omega / damped * (damped * t).sin();
+        let exact = q_d * (1.0 - (-zeta * omega * t).exp() * swing);
+        // Sampled force and backward Euler, both first order: ω_n dt = 7e-6 of the step of 0.01 m, some t/ω long.
+        assert!(
+            (plant.q - exact).abs() < 5e-5 * q_d,
+            "{t}: {}",
+            plant.q - exact
+        );
+    }
+}
+
+#[test]
+fn tau_drive_is_the_mean_force_of_the_step_and_its_momentum_is_the_masss() {
+    let mut plant = driven(|p| (p.q_d, p.dq_d) = (0.02, 0.3));
+    for _ in 0..50 {
+        let before = plant.dq;
+        run(&mut plant, 0.002, 1);
+        let momentum = plant.M * (plant.dq - before);
+        assert!((plant.tau_drive * 0.002 - momentum).abs() < 1e-14); // 25 roundings of some 1e-2 N·s
+    }
+    assert!(plant.tau_drive.abs() > 0.1);
+}
+
+#[test]
+fn the_drive_stays_within_its_limit_and_does_not_use_tau_a() {
+    let mut plant = driven(|p| (p.q_d, p.drive.servo.tau_max, p.tau_a) = (100.0, 2.0, 9.0));
+    run(&mut plant, 0.002, 10);
+    assert!((plant.tau_drive - 2.0).abs() < 1e-14); // mean of 25 equal numbers
+    assert!(plant.energy.work_tau_a > 0.0 && plant.energy.residual.abs() < 1e-15);
+    assert!((plant.q - 0.5 * 2.0 / 6.0 * 0.02 * 0.02).abs() < 2e-7); // backward Euler: half a substep at dq
+}
+
+#[test]
+fn in_torque_mode_the_command_changes_nothing_and_tau_drive_is_tau_a() {
+    let run_with = |q_d, dq_d| {
+        let mut plant = Testbed {
+            tau_a: 3.0,
+            q_d,
+            dq_d,
+            ..Testbed::default()
+        };
+        plant.initialize(0.0, &mut Log::silent()).unwrap();
+        run(&mut plant, 0.002, 700);
+        plant
+    };
+    let (plain, told) = (run_with(0.0, 0.0), run_with(7.0, -3.0));
+    assert_eq!((plain.q, plain.dq), (told.q, told.dq));
+    assert_eq!(plain.energy, told.energy);
+    assert_eq!((plain.tau_drive, told.tau_drive), (3.0, 3.0));
+}
