@@ -141,7 +141,7 @@ def test_a_wrong_setting_exits_two_and_says_why(
 def test_a_parameter_that_the_fmu_refuses_is_reported_with_the_fmu_s_own_words(
     short: Path, tmp_path: Path, fmu_dir: Path
 ) -> None:
-    answer = run(short, tmp_path, fmu_dir, "--set", "controller.law=natural")
+    answer = run(short, tmp_path, fmu_dir, "--set", "controller.law=natural", "--set", "controller.form=position_servo")
     assert answer.exit_code == 2
     assert "controller: fmi2" in answer.stderr
     assert "natural" in answer.stderr

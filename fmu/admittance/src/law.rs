@@ -18,9 +18,9 @@ pub enum Law {
     /// The nominal feels the limited force, and the spring slips where it alone would exceed the limit: passive, and
     /// |K K_P e_nr| ≤ f_max always.
     PassiveBounded = 4,
-    /// Natural admittance (Dohring and Newman). Not offered by this crate.
+    /// Natural admittance (Dohring and Newman), one axis: [`natural`](crate::natural).
     Natural = 5,
-    /// Sliding-mode inner loop under a standard proxy (Kikuuwe). Not offered by this crate.
+    /// Sliding-mode inner loop under a standard proxy (Kikuuwe), one axis: [`sliding_mode`](crate::sliding_mode).
     SlidingMode = 6,
 }
 
@@ -52,9 +52,14 @@ impl Law {
         }
     }
 
+    /// Whether it is there to be compared with, on one axis, and not one of [`Admittance`](crate::Admittance)'s.
+    pub const fn is_comparator(self) -> bool {
+        matches!(self, Self::Natural | Self::SlidingMode)
+    }
+
     /// Whether [`Admittance`](crate::Admittance) computes it.
     pub const fn is_offered(self) -> bool {
-        !matches!(self, Self::Natural | Self::SlidingMode)
+        !self.is_comparator()
     }
 }
 

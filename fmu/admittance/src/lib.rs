@@ -59,6 +59,8 @@
 //! | [`admittance`] | N axes under one ledger |
 //! | [`advice`] | gains that are accepted, but probably not meant |
 //! | [`hand`] | a hand too stiff for the gains: seen by its growing swing, answered with damping |
+//! | [`servo`] | the law for a drive that takes positions and velocities, one axis |
+//! | [`comparator`], [`natural`], [`sliding_mode`] | two other admittance controllers, to compare with, one axis |
 //!
 //! No heap, no clock, no I/O, no unsafe, no panic; it depends on `nalgebra` and `libm`. The feature `serde` makes the
 //! state storable.
@@ -73,14 +75,18 @@
 pub mod admittance;
 pub mod advice;
 pub mod axis;
+pub mod comparator;
 pub mod hand;
 pub mod law;
 pub mod ledger;
 pub mod midpoint;
 pub mod motion;
+pub mod natural;
 pub mod parameters;
 pub mod real;
 pub mod retune;
+pub mod servo;
+pub mod sliding_mode;
 pub mod storage;
 
 pub use admittance::{Admittance, Proposal, Tick};
@@ -88,5 +94,8 @@ pub use axis::Axis;
 pub use law::Law;
 pub use ledger::Ledger;
 pub use motion::Motion;
+pub use natural::Natural;
 pub use parameters::{Gains, ParameterError, Settings};
 pub use real::Real;
+pub use servo::Servo;
+pub use sliding_mode::SlidingMode;

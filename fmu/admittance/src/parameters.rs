@@ -73,8 +73,10 @@ pub enum ParameterError {
         /// The range.
         expected: &'static str,
     },
-    /// A law of [`Law`] that this crate does not compute.
+    /// A law of [`Law`] that [`Admittance`](crate::Admittance) does not compute: a comparator, which has one axis.
     NotOffered(Law),
+    /// A law of [`Law`] that cannot be run through a position drive, see [`servo`](crate::servo).
+    NoServoForm(Law),
     /// A number that stands for no law.
     UnknownLaw(i32),
 }
@@ -101,11 +103,19 @@ impl fmt::Display for ParameterError {
             Self::NotOffered(law) => {
                 write!(
                     f,
-                    "law = {} ({}) is not offered: expected ",
+                    "law = {} ({}) is a comparator, for one axis, and not offered here: expected ",
                     law.number(),
                     law.name()
                 )?;
                 offered(f)
+            }
+            Self::NoServoForm(law) => {
+                write!(
+                    f,
+                    "law = {} ({}) has no servo form: expected 1 (standard), 3 (passive_applied), 4 (passive_bounded)",
+                    law.number(),
+                    law.name()
+                )
             }
             Self::UnknownLaw(number) => {
                 write!(f, "law = {number}: expected ")?;

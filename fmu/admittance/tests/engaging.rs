@@ -142,7 +142,9 @@ fn errors_name_the_parameter_the_axis_the_value_and_the_range() {
     let offered = "1 (standard), 2 (passive), 3 (passive_applied), 4 (passive_bounded)";
     assert_eq!(
         settings(|s| s.law = Law::Natural),
-        format!("law = 5 (natural) is not offered: expected {offered}")
+        format!(
+            "law = 5 (natural) is a comparator, for one axis, and not offered here: expected {offered}"
+        )
     );
     assert_eq!(
         Law::try_from(0).expect_err("no law").to_string(),

@@ -26,6 +26,7 @@
 //!
 //! | module | what |
 //! |---|---|
+//! | [`controller`] | the laws, the servo form and the comparators behind one tick |
 //! | [`model`] | the variables and what a step does |
 //! | [`rows`] | one row per variable: name, unit, bounds, description |
 
@@ -35,6 +36,7 @@
     reason = "fields are spelt like the paper's symbols and the interface: M_n, K_P, T"
 )]
 
+pub mod controller;
 pub mod model;
 pub mod rows;
 

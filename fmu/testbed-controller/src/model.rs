@@ -1,9 +1,9 @@
 //! The variables and what a step does.
 
+use crate::controller::{self, Controller, Done, Form, Sensed};
 use admittance::advice::advise;
-use admittance::{Admittance, Gains, Law, ParameterError, Settings, Tick};
+use admittance::{Gains, Law, ParameterError, Settings};
 use export::{Log, Model, Refusal, Step, Ticks};
-use nalgebra::Vector1;
 use serde::{Deserialize, Serialize};
 
 /// The controller. What each variable is, with unit and sign, stands in its row ([`rows`](crate::rows)).
@@ -41,9 +41,22 @@ pub struct TestbedController {
 
     pub M_min: f64,
     pub gain_warning: i32,
+    pub tau_a_measured: f64,
+    pub q_d: f64,
+    pub dq_d: f64,
+    pub form: i32,
+    pub comparator: Comparator,
 
     ticks: Ticks,
-    admittance: Option<Admittance<1>>,
+    controller: Option<Controller>,
+}
+
+/// The variables `comparator.*`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[expect(missing_docs, reason = "a variable is described once, in its row")]
+pub struct Comparator {
+    pub M: f64,
+    pub H: f64,
 }
 
 /// The variables `energy.*`.
@@ -102,20 +115,31 @@ impl Default for TestbedController {
             dq_cutoff,
             M_min: 6.0,
             gain_warning: 0,
+            tau_a_measured: 0.0,
+            q_d: 0.0,
+            dq_d: 0.0,
+            form: 1,
+            comparator: Comparator { M: 6.0, H: 0.7 },
             ticks: Ticks::default(),
-            admittance: None,
+            controller: None,
         }
     }
 }
 
 impl Model for TestbedController {
     fn initialize(&mut self, _start_time: f64, log: &mut Log<'_>) -> Result<(), Refusal> {
-        let mut admittance = Admittance::new(self.settings()?, [self.gains()]).map_err(refusal)?;
+        let mut controller = Controller::new(
+            self.settings()?,
+            self.gains(),
+            self.form()?,
+            self.comparator(),
+        )
+        .map_err(refusal)?;
         self.gain_warning = 0;
         self.advise(log)?;
-        let out_of_the_loop = admittance.rest(&Vector1::new(self.q));
-        self.show(&out_of_the_loop, &admittance);
-        self.admittance = Some(admittance);
+        let out_of_the_loop = controller.tick(&self.sensed(), false);
+        self.show(&out_of_the_loop);
+        self.controller = Some(controller);
         self.ticks = Ticks::default();
         self.tick = -1;
         Ok(())
@@ -123,9 +147,9 @@ impl Model for TestbedController {
 
     fn tune(&mut self, log: &mut Log<'_>) -> Result<(), Refusal> {
         let gains = self.gains();
-        self.admittance
+        self.controller
             .as_mut()
-            .map_or(Ok(()), |admittance| admittance.tune([gains]))
+            .map_or(Ok(()), |controller| controller.tune(gains))
             .map_err(refusal)?;
         self.advise(log)
     }
@@ -135,29 +159,19 @@ impl Model for TestbedController {
     }
 
     fn step(&mut self, step: Step, _log: &mut Log<'_>) -> Result<(), Refusal> {
-        let mut admittance = self
-            .admittance
+        let mut controller = self
+            .controller
             .ok_or_else(|| Refusal::new("a step before initialization"))?;
-        let (q, tau_h) = (Vector1::new(self.q), Vector1::new(self.tau_h));
+        let sensed = self.sensed();
         for k in self.ticks.within(&step, self.T) {
-            let tick = if self.engage {
-                admittance.step(&q, &tau_h)
-            } else {
-                admittance.rest(&q)
-            };
-            let results = [
-                tick.f_demand.x,
-                tick.q_n.x,
-                tick.dq_n.x,
-                admittance.ledger().G(),
-            ];
-            if !results.into_iter().all(f64::is_finite) {
+            let done = controller.tick(&sensed, self.engage);
+            if !done.is_finite() {
                 return Err(overflow(k, self.q, self.tau_h));
             }
-            self.show(&tick, &admittance);
+            self.show(&done);
             self.tick = i32::try_from(k).unwrap_or(i32::MAX);
         }
-        self.admittance = Some(admittance);
+        self.controller = Some(controller);
         Ok(())
     }
 }
@@ -165,7 +179,7 @@ impl Model for TestbedController {
 impl TestbedController {
     fn settings(&self) -> Result<Settings, Refusal> {
         Ok(Settings {
-            law: Law::try_from(self.law).map_err(refusal)?,
+            law: Law::try_from(self.law).map_err(|_| unknown_law(self.law))?,
             alpha: self.alpha,
             T: self.T,
             delayed: match self.delay {
@@ -200,7 +214,9 @@ impl TestbedController {
 
     /// Sets `gain_warning` and says why when it becomes another one than 0.
     fn advise(&mut self, log: &mut Log<'_>) -> Result<(), Refusal> {
-        let advice = advise(&self.settings()?, &self.gains(), self.M_min);
+        let mut advice = advise(&self.settings()?, &self.gains(), self.M_min);
+        advice.stiff_coupling &= self.form()? == Form::Torque; // else the coupling is the drive's
+        advice.light_nominal &= self.law != Law::Natural.number(); // which has comparator.M in place of M_n
         let before = std::mem::replace(&mut self.gain_warning, advice.number());
         if ![0, before].contains(&self.gain_warning) {
             log.warning(format_args!("gain_warning: {}", advice.message()));
@@ -208,21 +224,41 @@ impl TestbedController {
         Ok(())
     }
 
-    fn show(&mut self, tick: &Tick<1>, admittance: &Admittance<1>) {
-        self.tau_a = tick.f.x;
-        self.tau_demand = tick.f_demand.x;
-        self.q_n = tick.q_n.x;
-        self.dq_n = tick.dq_n.x;
-        self.e_nr = tick.e_nr.x;
-        self.dq = tick.dq.x;
-        self.saturated = tick.saturated;
-        self.outside_bounds = tick.outside_bounds;
-        self.engaged = tick.engaged;
-        let ledger = admittance.ledger();
+    fn form(&self) -> Result<Form, Refusal> {
+        match self.form {
+            1 => Ok(Form::Torque),
+            2 => Ok(Form::PositionServo),
+            other => Err(Refusal(format!(
+                "form = {other}: expected 1 (torque) or 2 (position_servo)"
+            ))),
+        }
+    }
+
+    fn comparator(&self) -> controller::Comparator {
+        let Comparator { M, H } = self.comparator;
+        controller::Comparator { M, H }
+    }
+
+    fn sensed(&self) -> Sensed {
+        Sensed {
+            q: self.q,
+            tau_h: self.tau_h,
+            tau_m: self.tau_a_measured,
+        }
+    }
+
+    fn show(&mut self, done: &Done) {
+        let Done { H, G, tank, .. } = *done;
+        (self.tau_a, self.tau_demand) = (done.tau_a, done.tau_demand);
+        (self.q_n, self.dq_n, self.e_nr) = (done.q_n, done.dq_n, done.e_nr);
+        (self.q_d, self.dq_d, self.dq) = (done.q_d, done.dq_d, done.dq);
+        self.saturated = done.saturated;
+        self.outside_bounds = done.outside_bounds;
+        self.engaged = done.engaged;
         self.energy = Energy {
-            H: ledger.H(),
-            G: ledger.G(),
-            tank: ledger.tank(),
+            H,
+            G,
+            tank,
             ..self.energy
         };
     }
@@ -251,6 +287,13 @@ fn refusal(error: ParameterError) -> Refusal {
         }
         other => other,
     })
+}
+
+/// `law = 9: expected 1 (standard), …`, with the comparators, which the other models do not have.
+#[cold]
+fn unknown_law(number: i32) -> Refusal {
+    let laws = Law::ALL.map(|law| format!("{} ({})", law.number(), law.name()));
+    Refusal(format!("law = {number}: expected {}", laws.join(", ")))
 }
 
 #[cold]

@@ -35,12 +35,30 @@ pub const LAW: Enumeration = Enumeration {
         Item {
             value: 5,
             name: "natural",
-            about: "natural admittance control; not offered yet",
+            about: "natural admittance control (Dohring and Newman), to compare with: comparator.M in place of M_n; sticks to walls",
         },
         Item {
             value: 6,
             name: "sliding_mode",
-            about: "sliding-mode inner loop under a standard proxy; not offered yet",
+            about: "sliding-mode position control under a standard proxy (Kikuuwe), to compare with; sticks to walls",
+        },
+    ],
+};
+
+/// The type of `form`.
+pub const FORM: Enumeration = Enumeration {
+    name: "Form",
+    about: "What the robot gets from the controller",
+    items: &[
+        Item {
+            value: 1,
+            name: "torque",
+            about: "the force tau_a",
+        },
+        Item {
+            value: 2,
+            name: "position_servo",
+            about: "q_d and dq_d, for a drive that closes the loop with K and K_P itself; needs tau_a_measured",
         },
     ],
 };
@@ -87,8 +105,11 @@ impl Declare for TestbedController {
                 .about("Energy that the sampled law has created so far, negative: dissipated; 0 if alpha = 0"),
             real!(energy.tank, unit::JOULE)
                 .output(Discrete)
-                .initially_from(&["energy.E_0", "alpha"])
-                .about("Energy tank: energy.E_0 less what was created, refilled by dissipation up to energy.E_0; 0 if alpha = 0"),
+                .initially_from(&["energy.E_0", "alpha", "law"])
+                .about(
+                    "Energy tank: energy.E_0 less what was created, refilled by dissipation up to energy.E_0; 0 if alpha = 0 and \
+                     under the laws natural and sliding_mode, for which no energy is defined",
+                ),
             real!(dq, unit::METRE_PER_SECOND)
                 .output(Discrete)
                 .about("Velocity of the robot as the law uses it: backward difference of q, 0 at the first tick"),
@@ -148,6 +169,26 @@ impl Declare for TestbedController {
             integer!(gain_warning).output(Discrete).initially_from(&["M_min", "M_n", "K", "T"]).about(
                 "Gains that are accepted but probably not meant: 0 none, 1 K*T/M_min above 0.25, 2 M_n below M_min/10, 3 both",
             ),
+            real!(tau_a_measured, unit::NEWTON).input(Discrete).about(
+                "Measured force of the drive on the robot, mean over the sample that ended, positive along q; the nominal feels \
+                 it in the servo form, it is not used in the torque form",
+            ),
+            real!(q_d, unit::METRE).output(Discrete).initially_from(&["q"]).about(
+                "Position command for the sample that begins, held: the nominal's in the middle of that sample; q_n in the torque \
+                 form",
+            ),
+            real!(dq_d, unit::METRE_PER_SECOND)
+                .output(Discrete)
+                .about("Velocity command for the sample that begins: the nominal's mean in that sample; dq_n in the torque form"),
+            enumeration!(form, &FORM).parameter(Fixed).about("What the robot gets from the controller"),
+            real!(comparator.M, unit::KILOGRAM)
+                .parameter(Fixed)
+                .at_least(SMALLEST)
+                .about("Mass of the robot, for the law natural only"),
+            real!(comparator.H, unit::SECOND)
+                .parameter(Fixed)
+                .at_least(0.0)
+                .about("Time constant of the sliding surface, for the law sliding_mode only"),
         ],
     };
 }

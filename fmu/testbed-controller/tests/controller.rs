@@ -169,18 +169,38 @@ fn tuning_does_not_raise_the_stored_energy() {
 #[test]
 fn refusals_name_the_variable_the_value_and_the_range() {
     type Change = fn(&mut TestbedController);
-    let cases: [(Change, &str); 10] = [
-        (
-            |c| c.law = 5,
-            "law = 5 (natural) is not offered: expected 1 (standard), 2 (passive), 3 (passive_applied), 4 (passive_bounded)",
-        ),
-        (
-            |c| c.law = 6,
-            "law = 6 (sliding_mode) is not offered: expected 1 (standard), 2 (passive), 3 (passive_applied), 4 (passive_bounded)",
-        ),
+    let cases: [(Change, &str); 15] = [
         (
             |c| c.law = 9,
-            "law = 9: expected 1 (standard), 2 (passive), 3 (passive_applied), 4 (passive_bounded)",
+            "law = 9: expected 1 (standard), 2 (passive), 3 (passive_applied), 4 (passive_bounded), 5 (natural), 6 (sliding_mode)",
+        ),
+        (
+            |c| (c.law, c.comparator.M) = (5, 0.0),
+            "comparator.M = 0: expected a finite value greater than 0",
+        ),
+        (
+            |c| (c.law, c.comparator.H) = (6, -1.0),
+            "comparator.H = -1: expected a finite value not less than 0",
+        ),
+        (
+            |c| (c.law, c.K_P) = (6, 0.0),
+            "K_P = 0: expected a finite value greater than 0",
+        ),
+        (
+            |c| (c.law, c.T) = (5, -1.0),
+            "T = -1: expected a finite value greater than 0",
+        ),
+        (
+            |c| c.form = 3,
+            "form = 3: expected 1 (torque) or 2 (position_servo)",
+        ),
+        (
+            |c| (c.law, c.form) = (2, 2),
+            "law = 2 (passive) has no servo form: expected 1 (standard), 3 (passive_applied), 4 (passive_bounded)",
+        ),
+        (
+            |c| (c.law, c.form) = (5, 2),
+            "law = 5 (natural) has no servo form: expected 1 (standard), 3 (passive_applied), 4 (passive_bounded)",
         ),
         (
             |c| c.T = 0.0,

@@ -1,0 +1,214 @@
+//! One of the controllers that the model offers, behind one tick.
+
+use admittance::{
+    Admittance, Gains, Law, Natural, ParameterError, Servo, Settings, SlidingMode, comparator,
+    servo,
+};
+use nalgebra::Vector1;
+use serde::{Deserialize, Serialize};
+
+/// What a robot gets from the controller.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Form {
+    /// A force.
+    Torque,
+    /// Position and velocity for a drive that closes the loop itself.
+    PositionServo,
+}
+
+/// What the comparators need besides the laws' parameters.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Comparator {
+    /// Mass of the robot (kg), for `natural`.
+    pub M: f64,
+    /// Time constant of the sliding surface (s), for `sliding_mode`.
+    pub H: f64,
+}
+
+/// The controller between two ticks.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[expect(
+    clippy::large_enum_variant,
+    reason = "one instance a model, copied within a tick; no allocation in the step"
+)]
+pub enum Controller {
+    /// One of the four laws, torque form.
+    Law(Admittance<1>),
+    /// One of the laws, servo form.
+    Servo(Servo),
+    /// The comparator `natural`.
+    Natural(Natural),
+    /// The comparator `sliding_mode`.
+    SlidingMode(SlidingMode),
+}
+
+/// What is sensed at a tick.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sensed {
+    /// Position, m.
+    pub q: f64,
+    /// Force of the human, N.
+    pub tau_h: f64,
+    /// Mean force of the drive over the sample that ended, N; servo form only.
+    pub tau_m: f64,
+}
+
+/// What a controller did at a tick; every value is the one at t_k.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[expect(missing_docs, reason = "outputs of the model, described in their rows")]
+pub struct Done {
+    pub tau_a: f64,
+    pub tau_demand: f64,
+    pub q_n: f64,
+    pub dq_n: f64,
+    pub e_nr: f64,
+    pub dq: f64,
+    pub q_d: f64,
+    pub dq_d: f64,
+    pub saturated: bool,
+    pub outside_bounds: bool,
+    pub engaged: bool,
+    pub H: f64,
+    pub G: f64,
+    pub tank: f64,
+}
+
+impl Done {
+    /// Whether every number is one.
+    pub fn is_finite(&self) -> bool {
+        [self.tau_demand, self.q_n, self.dq_n, self.q_d, self.G]
+            .into_iter()
+            .all(f64::is_finite)
+    }
+}
+
+impl Controller {
+    /// Out of the loop.
+    ///
+    /// # Errors
+    /// The first parameter out of its range, or a law that does not exist in this form.
+    pub fn new(
+        settings: Settings,
+        gains: Gains,
+        form: Form,
+        comparator: Comparator,
+    ) -> Result<Self, ParameterError> {
+        Ok(match (settings.law, form) {
+            (Law::Passive | Law::Natural | Law::SlidingMode, Form::PositionServo) => {
+                return Err(ParameterError::NoServoForm(settings.law));
+            }
+            (_, Form::PositionServo) => Self::Servo(Servo::new(settings, gains)?),
+            (Law::Natural, _) => Self::Natural(Natural::new(settings, gains, comparator.M)?),
+            (Law::SlidingMode, _) => {
+                Self::SlidingMode(SlidingMode::new(settings, gains, comparator.H)?)
+            }
+            _ => Self::Law(Admittance::new(settings, [gains])?),
+        })
+    }
+
+    /// Other gains from the next tick on.
+    ///
+    /// # Errors
+    /// The first one that is refused; the gains stay as they were.
+    pub fn tune(&mut self, gains: Gains) -> Result<(), ParameterError> {
+        match self {
+            Self::Law(law) => law.tune([gains]),
+            Self::Servo(servo) => servo.tune(gains),
+            Self::Natural(natural) => natural.tune(gains),
+            Self::SlidingMode(sliding_mode) => sliding_mode.tune(gains),
+        }
+    }
+
+    /// One tick, in the loop or out of it.
+    pub fn tick(&mut self, sensed: &Sensed, engage: bool) -> Done {
+        let Sensed { q, tau_h, tau_m } = *sensed;
+        match self {
+            Self::Law(law) => {
+                let tick = if engage {
+                    law.step(&Vector1::new(q), &Vector1::new(tau_h))
+                } else {
+                    law.rest(&Vector1::new(q))
+                };
+                let ledger = law.ledger();
+                Done {
+                    tau_a: tick.f.x,
+                    tau_demand: tick.f_demand.x,
+                    q_n: tick.q_n.x,
+                    dq_n: tick.dq_n.x,
+                    e_nr: tick.e_nr.x,
+                    dq: tick.dq.x,
+                    q_d: tick.q_n.x,
+                    dq_d: tick.dq_n.x,
+                    saturated: tick.saturated,
+                    outside_bounds: tick.outside_bounds,
+                    engaged: tick.engaged,
+                    H: ledger.H(),
+                    G: ledger.G(),
+                    tank: ledger.tank(),
+                }
+            }
+            Self::Servo(servo) => {
+                let tick = if engage {
+                    servo.step(q, tau_h, tau_m)
+                } else {
+                    servo.rest(q, tau_m)
+                };
+                in_servo_form(&tick, servo.energy(), engage)
+            }
+            Self::Natural(natural) => compared(
+                &if engage {
+                    natural.step(q, tau_h)
+                } else {
+                    natural.rest(q)
+                },
+                engage,
+            ),
+            Self::SlidingMode(sliding_mode) => compared(
+                &if engage {
+                    sliding_mode.step(q, tau_h)
+                } else {
+                    sliding_mode.rest(q)
+                },
+                engage,
+            ),
+        }
+    }
+}
+
+fn in_servo_form(tick: &servo::Tick, energy: &servo::Energy, engaged: bool) -> Done {
+    Done {
+        tau_a: 0.0,
+        tau_demand: 0.0,
+        q_n: tick.q_n,
+        dq_n: tick.dq_n,
+        e_nr: tick.e_nr,
+        dq: tick.dq,
+        q_d: tick.q_d,
+        dq_d: tick.dq_d,
+        saturated: tick.saturated,
+        outside_bounds: false,
+        engaged,
+        H: energy.H,
+        G: energy.G,
+        tank: energy.tank,
+    }
+}
+
+fn compared(tick: &comparator::Tick, engaged: bool) -> Done {
+    Done {
+        tau_a: tick.f,
+        tau_demand: tick.f_demand,
+        q_n: tick.q_n,
+        dq_n: tick.dq_n,
+        e_nr: tick.e_nr,
+        dq: tick.dq,
+        q_d: tick.q_n,
+        dq_d: tick.dq_n,
+        saturated: tick.is_saturated(),
+        outside_bounds: false,
+        engaged,
+        H: 0.0,
+        G: 0.0,
+        tank: 0.0,
+    }
+}
