@@ -21,11 +21,15 @@ fn refusals_name_the_variable_the_value_and_the_range() {
     let cases: [(Change, String); 25] = [
         (
             |c| c.law = 5,
-            format!("law = 5 (natural) is a comparator, for one axis, and not offered here: {LAWS}"),
+            format!(
+                "law = 5 (natural) is a comparator, for one axis, and not offered here: {LAWS}"
+            ),
         ),
         (
             |c| c.law = 6,
-            format!("law = 6 (sliding_mode) is a comparator, for one axis, and not offered here: {LAWS}"),
+            format!(
+                "law = 6 (sliding_mode) is a comparator, for one axis, and not offered here: {LAWS}"
+            ),
         ),
         (|c| c.law = 0, format!("law = 0: {LAWS}")),
         (|c| c.delay = 2, "delay = 2: expected 0 or 1".into()),
