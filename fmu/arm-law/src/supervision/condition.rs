@@ -22,7 +22,7 @@ pub enum Condition {
     EngageRises,
     /// `acknowledge` is true and was false at the tick before.
     AcknowledgeRises,
-    /// Nothing has been wrong for `init.time`.
+    /// Nothing has been wrong for `init_time`.
     Prepared,
     /// A hold is requested, or the human's hand is at rest.
     Quiet,

@@ -23,13 +23,13 @@ pub enum Diagnostic {
     EnergyDebt = 6,
     /// Warning: the motion since the last tick exceeds the bounds of the passivity argument.
     OutsideBounds = 7,
-    /// Warning: the force or torque limits have been acting for longer than `saturation.time`.
+    /// Warning: the force or torque limits have been acting for longer than `saturation_time`.
     Saturated = 8,
     /// A fault's cause is gone; it waits for a rising edge of `acknowledge`.
     NotAcknowledged = 9,
     /// `enable` is false.
     NotEnabled = 10,
-    /// Sensors and heartbeat are good, not yet for `init.time`.
+    /// Sensors and heartbeat are good, not yet for `init_time`.
     Preparing = 11,
     /// `engage` is false.
     NotEngaged = 12,

@@ -7,23 +7,23 @@ use admittance::{ParameterError, Real};
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Parameters {
-    /// `init.time`: for how long sensors and heartbeat must have been good before the controller is ready, s.
+    /// For how long sensors and heartbeat must have been good before the controller is ready, s.
     pub init_time: Real,
-    /// `engage.time`: duration over which the authority rises from 0 to 1, s; one tick at least.
+    /// Duration over which the authority rises from 0 to 1, s; one tick at least.
     pub engage_time: Real,
-    /// `soft_stop.time`: duration over which it falls to 0, s; one tick at least.
+    /// Duration over which it falls to 0, s; one tick at least.
     pub soft_stop_time: Real,
-    /// `heartbeat.timeout`: time within which the heartbeat must change, s; 0 = it is not watched.
+    /// Time within which the heartbeat must change, s; 0 = it is not watched.
     pub heartbeat_timeout: Real,
-    /// `hold.enter`: magnitude of f_h below which the hand is at rest, N; 0 = the controller never holds by itself.
+    /// Magnitude of f_h below which the hand is at rest, N; 0 = the controller never holds by itself.
     pub hold_enter: Real,
-    /// `hold.leave`: magnitude of f_h above which it no longer is, N, ≥ `hold.enter`.
+    /// Magnitude of f_h above which it no longer is, N, ≥ `hold_enter`.
     pub hold_leave: Real,
-    /// `hold.time`: for how long f_h must have been below `hold.enter`, s.
+    /// For how long f_h must have been below `hold_enter`, s.
     pub hold_time: Real,
-    /// `hold.brake`: duration over which a moving nominal is brought to rest, s; one tick at least.
+    /// Duration over which a moving nominal is brought to rest, s; one tick at least.
     pub hold_brake: Real,
-    /// `saturation.time`: for how long limits may act before they are reported, s; 0 = they are not.
+    /// For how long limits may act before they are reported, s; 0 = they are not.
     pub saturation_time: Real,
 }
 
@@ -53,23 +53,23 @@ impl Parameters {
         check(
             None,
             &[
-                ("init.time", self.init_time, NOT_NEGATIVE),
-                ("engage.time", self.engage_time, NOT_NEGATIVE),
-                ("soft_stop.time", self.soft_stop_time, NOT_NEGATIVE),
-                ("heartbeat.timeout", self.heartbeat_timeout, NOT_NEGATIVE),
-                ("hold.enter", self.hold_enter, NOT_NEGATIVE),
-                ("hold.leave", self.hold_leave, NOT_NEGATIVE),
-                ("hold.time", self.hold_time, NOT_NEGATIVE),
-                ("hold.brake", self.hold_brake, NOT_NEGATIVE),
-                ("saturation.time", self.saturation_time, NOT_NEGATIVE),
+                ("init_time", self.init_time, NOT_NEGATIVE),
+                ("engage_time", self.engage_time, NOT_NEGATIVE),
+                ("soft_stop_time", self.soft_stop_time, NOT_NEGATIVE),
+                ("heartbeat_timeout", self.heartbeat_timeout, NOT_NEGATIVE),
+                ("hold_enter", self.hold_enter, NOT_NEGATIVE),
+                ("hold_leave", self.hold_leave, NOT_NEGATIVE),
+                ("hold_time", self.hold_time, NOT_NEGATIVE),
+                ("hold_brake", self.hold_brake, NOT_NEGATIVE),
+                ("saturation_time", self.saturation_time, NOT_NEGATIVE),
             ],
         )?;
         if self.hold_leave < self.hold_enter {
             return Err(ParameterError::OutOfRange {
-                name: "hold.leave",
+                name: "hold_leave",
                 axis: None,
                 value: self.hold_leave,
-                expected: "a value not less than hold.enter",
+                expected: "a value not less than hold_enter",
             });
         }
         Ok(())

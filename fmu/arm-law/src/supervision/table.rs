@@ -133,7 +133,7 @@ pub const RULES: &[Rule] = &[
         when: &[Prepared],
         unless: FAULTS,
         to: Ready,
-        why: "sensors and heartbeat have been good for init.time",
+        why: "sensors and heartbeat have been good for init_time",
     },
     Rule {
         from: &[Ready],

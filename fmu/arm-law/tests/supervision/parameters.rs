@@ -13,35 +13,35 @@ fn a_time_or_threshold_out_of_range_is_refused_by_name_value_and_range() {
     let of = "expected a finite value not less than 0";
     assert_eq!(
         refused(|p| p.init_time = -1.0),
-        format!("init.time = -1: {of}")
+        format!("init_time = -1: {of}")
     );
     assert_eq!(
         refused(|p| p.engage_time = -0.5),
-        format!("engage.time = -0.5: {of}")
+        format!("engage_time = -0.5: {of}")
     );
     assert_eq!(
         refused(|p| p.soft_stop_time = f64::NAN),
-        format!("soft_stop.time = NaN: {of}")
+        format!("soft_stop_time = NaN: {of}")
     );
     assert_eq!(
         refused(|p| p.heartbeat_timeout = f64::INFINITY),
-        format!("heartbeat.timeout = inf: {of}")
+        format!("heartbeat_timeout = inf: {of}")
     );
     assert_eq!(
         refused(|p| p.hold_enter = -2.0),
-        format!("hold.enter = -2: {of}")
+        format!("hold_enter = -2: {of}")
     );
     assert_eq!(
         refused(|p| p.hold_time = -2.0),
-        format!("hold.time = -2: {of}")
+        format!("hold_time = -2: {of}")
     );
     assert_eq!(
         refused(|p| p.hold_brake = -2.0),
-        format!("hold.brake = -2: {of}")
+        format!("hold_brake = -2: {of}")
     );
     assert_eq!(
         refused(|p| p.saturation_time = -2.0),
-        format!("saturation.time = -2: {of}")
+        format!("saturation_time = -2: {of}")
     );
 }
 
@@ -50,7 +50,7 @@ fn a_hold_cannot_be_left_below_the_force_at_which_it_is_entered() {
     let message = refused(|p| (p.hold_enter, p.hold_leave) = (2.0, 1.0));
     assert_eq!(
         message,
-        "hold.leave = 1: expected a value not less than hold.enter"
+        "hold_leave = 1: expected a value not less than hold_enter"
     );
 }
 
