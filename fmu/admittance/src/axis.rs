@@ -1,8 +1,9 @@
 //! One axis: slip, midpoint, clamp, reset.
 
+use crate::bounds::Interval;
 use crate::midpoint::{self, Midpoint, Sample};
-use crate::real::{self, floored, sat};
-use crate::{Gains, Law, Motion, Real, Settings, retune, storage};
+use crate::real::{floored, sat};
+use crate::{Bounds, Gains, Law, Motion, Real, Settings, retune, storage};
 
 /// One axis of the law between two ticks.
 ///
@@ -12,18 +13,56 @@ use crate::{Gains, Law, Motion, Real, Settings, retune, storage};
 pub struct Axis {
     gains: Gains,
     wanted: Gains,
+    /// ticks until the gains are those wanted
+    remaining: u32,
+    bounds: Bounds,
     q_n: Real,
     v_n: Real,
     motion: Motion,
 }
 
+/// One axis at a tick, once the position is known: what it stores, before it acts.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sensed {
+    axis: Axis,
+    q: Real,
+    e: Real,
+}
+
+/// What one axis asks for at a tick. Nothing has happened until it is committed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Proposal {
+    axis: Axis,
+    /// the gains with the damping on top
+    damped: Gains,
+    interval: Interval,
+    q: Real,
+    sample: Sample,
+    wish: Midpoint,
+    /// whether a limit changed the wish
+    held: bool,
+}
+
+/// What one axis did at a tick.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Committed {
+    /// The axis until the next tick.
+    pub axis: Axis,
+    /// Energy (K/alpha) f_h v_m T that the human's port brings in the sample that begins, J. Not finite for alpha = 0.
+    pub supplied: Real,
+    /// Whether one of the [`Bounds`], or hold, kept the nominal back.
+    pub held: bool,
+}
+
 impl Axis {
-    /// Engaged at the position `q` (m): q_n = q, v_n = 0, nothing known of the motion yet. The caller has checked the
-    /// gains.
-    pub fn new(gains: Gains, q: Real) -> Self {
+    /// Engaged at the position `q` (m): q_n = q, v_n = 0, nothing known of the motion yet. The caller has checked gains and
+    /// bounds.
+    pub fn new(gains: Gains, bounds: Bounds, q: Real) -> Self {
         Self {
             gains,
             wanted: gains,
+            remaining: 0,
+            bounds,
             q_n: q,
             v_n: 0.0,
             motion: Motion::default(),
@@ -33,35 +72,40 @@ impl Axis {
     /// Engaged anew at the position `q` (m), with the gains last wanted.
     #[must_use]
     pub fn engaged_at(self, q: Real) -> Self {
-        Self::new(self.wanted, q)
+        Self::new(self.wanted, self.bounds, q)
     }
 
-    /// With other gains from the next tick on. The caller has checked them.
+    /// On its way to other gains, which it has after `ticks` ticks, or at the next one. The caller has checked them.
     #[must_use]
-    pub fn tuned(self, wanted: Gains) -> Self {
-        Self { wanted, ..self }
+    pub fn tuned(self, wanted: Gains, ticks: u32) -> Self {
+        Self {
+            wanted,
+            remaining: ticks.max(1),
+            ..self
+        }
     }
 
-    /// What the axis asks for at a tick with position `q` (m) and human force `f_h` (N): gains that are wanted take
-    /// over, the spring slips, nominal and coupling are solved together.
-    pub fn propose(self, q: Real, f_h: Real, settings: &Settings) -> Proposal {
-        let gains = self.wanted;
-        let motion = self.motion.sensed(q, settings);
+    /// Within other bounds from the next tick on. The caller has checked them.
+    #[must_use]
+    pub fn within(self, bounds: Bounds) -> Self {
+        Self { bounds, ..self }
+    }
+
+    /// The axis at a tick with position `q` (m): gains on their way take over, the spring slips.
+    pub fn sensed(self, q: Real, settings: &Settings) -> Sensed {
+        let gains = self.gains.toward(&self.wanted, self.remaining);
         let (e, v_n) =
             retune::taken_over(settings.law, &self.gains, &gains, self.q_n - q, self.v_n);
-        let sample = Sample {
-            e: slipped(settings.law, &gains, e),
-            v_n,
-            dq: motion.dq(),
-            f_h,
-        };
-        let wish = midpoint::coupled(&gains, settings.reaction(), settings.T, &sample);
-        Proposal {
-            gains,
-            motion,
+        Sensed {
+            axis: Self {
+                gains,
+                remaining: self.remaining.saturating_sub(1),
+                v_n,
+                motion: self.motion.sensed(q, settings),
+                ..self
+            },
             q,
-            sample,
-            wish,
+            e: slipped(settings.law, &gains, e),
         }
     }
 }
@@ -74,25 +118,65 @@ fn slipped(law: Law, gains: &Gains, e: Real) -> Real {
     }
 }
 
-/// What one axis asks for at a tick. Nothing has happened until it is committed.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Proposal {
-    gains: Gains,
-    motion: Motion,
-    q: Real,
-    sample: Sample,
-    wish: Midpoint,
-}
+impl Sensed {
+    /// Energy stored at this tick, J. Not finite for alpha = 0.
+    pub fn stored(&self, settings: &Settings) -> Real {
+        let Self { axis, e, .. } = self;
+        storage::stored(settings.law, &axis.gains, settings.alpha, *e, axis.v_n)
+    }
 
-/// What one axis did at a tick.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Committed {
-    /// The axis until the next tick.
-    pub axis: Axis,
-    /// Force on the robot, N.
-    pub f: Real,
-    /// Energy (K/alpha) f_h v_m T that the human's port brings in the sample that begins, J. Not finite for alpha = 0.
-    pub supplied: Real,
+    /// The spring's part of it, J.
+    pub fn spring(&self, settings: &Settings) -> Real {
+        storage::spring(settings.law, &self.axis.gains, self.e)
+    }
+
+    /// With the position error and the nominal's velocity reduced to these shares, in [0, 1]: energy given up.
+    #[must_use]
+    pub fn reduced(self, e: Real, v_n: Real) -> Self {
+        Self {
+            axis: Axis {
+                v_n: self.axis.v_n * v_n,
+                ..self.axis
+            },
+            e: self.e * e,
+            ..self
+        }
+    }
+
+    /// What the axis asks for with the human's force `f_h` (N): nominal and coupling are solved together, within the
+    /// bounds. `hold` keeps the nominal where it is; `damping` (N·s/m, ≥ 0) comes on top of D_n.
+    pub fn propose(self, f_h: Real, hold: bool, damping: Real, settings: &Settings) -> Proposal {
+        let Self { axis, q, e } = self;
+        let damped = Gains {
+            D_n: axis.gains.D_n + damping,
+            ..axis.gains
+        };
+        let sample = Sample {
+            e,
+            v_n: axis.v_n,
+            dq: axis.motion.dq(),
+            f_h,
+        };
+        let interval = axis.bounds.interval(q + e, settings.T, hold);
+        let free = midpoint::coupled(&damped, settings.reaction(), settings.T, &sample);
+        let v_m = interval.keep(free.v_m);
+        let held = v_m != free.v_m;
+        let wish = if held {
+            let y = midpoint::coupling(&damped, settings.T, &sample, v_m);
+            Midpoint { v_m, y }
+        } else {
+            free
+        };
+        Proposal {
+            axis,
+            damped,
+            interval,
+            q,
+            sample,
+            wish,
+            held,
+        }
+    }
 }
 
 impl Proposal {
@@ -111,73 +195,73 @@ impl Proposal {
         self.sample.v_n
     }
 
-    /// What the law knows of the robot's motion.
-    pub fn motion(&self) -> &Motion {
-        &self.motion
+    /// The robot's velocity as the law uses it, m/s.
+    pub fn dq(&self) -> Real {
+        self.sample.dq
     }
 
     /// K y before any limit, N.
     pub fn f_demand(&self) -> Real {
-        self.gains.K * self.wish.y
+        self.damped.K * self.wish.y
     }
 
     /// K y within ±f_max, N.
     pub fn f(&self) -> Real {
-        sat(self.f_demand(), self.gains.f_max)
+        sat(self.f_demand(), self.damped.f_max)
     }
 
-    /// Energy stored at this tick, J. Not finite for alpha = 0.
-    pub fn stored(&self, settings: &Settings) -> Real {
-        storage::stored(
-            settings.law,
-            &self.gains,
-            settings.alpha,
-            self.sample.e,
-            self.sample.v_n,
-        )
-    }
-
-    /// Whether f_max or the factor `s` leaves less than the demand.
-    pub fn is_limited(&self, s: Real) -> bool {
-        real::abs(self.f_demand()) > self.gains.f_max || s < 1.0
-    }
-
-    /// The nominal moves on, while the robot gets s·sat(K y): `s` in [0, 1] is what the caller's actuators leave.
-    pub fn commit(self, s: Real, settings: &Settings) -> Committed {
-        let (gains, sample) = (&self.gains, &self.sample);
-        let (alpha, T) = (settings.reaction(), settings.T);
-        let f = s * self.f();
-        let y_s = f / gains.K;
-
-        let limited = self.is_limited(s);
-        let v_m = match settings.law {
-            Law::PassiveApplied | Law::PassiveBounded if limited => {
-                midpoint::driven(gains, alpha, T, sample, y_s)
+    /// v_m (m/s) if the robot gets the force `f` (N), and whether the bounds kept it back.
+    fn v_m(&self, f: Real, settings: &Settings) -> (Real, bool) {
+        match settings.law {
+            Law::PassiveApplied | Law::PassiveBounded if f != self.f_demand() => {
+                let (alpha, T) = (settings.reaction(), settings.T);
+                let y_s = f / self.damped.K;
+                let free = midpoint::driven(&self.damped, alpha, T, &self.sample, y_s);
+                let v_m = self.interval.keep(free);
+                (v_m, v_m != free)
             }
-            _ => self.wish.v_m,
-        };
-        let v_next = 2.0 * v_m - sample.v_n;
-        let v_n = match settings.law {
-            Law::PassiveBounded if limited => {
-                slower(v_next, midpoint::at_the_bound(gains, T, sample, y_s))
-            }
-            _ => v_next,
-        };
+            _ => (self.wish.v_m, self.held),
+        }
+    }
+
+    /// Energy (J) that the law is sure to take in the sample that begins, if the robot gets the force `f` (N) under
+    /// `passive_bounded`: what the human brings less what the nominal keeps, its damping, and the spring, which can be
+    /// given up afterwards.
+    ///
+    /// −ΔH + (K/alpha) f_h v_m T ≥ K y v_m T + (K/alpha) D_n v_m² T + ½ K K_P e²
+    pub fn taken(&self, f: Real, settings: &Settings) -> Real {
+        let Gains { D_n, K, .. } = self.damped;
+        let (v_m, _) = self.v_m(f, settings);
+        f * v_m * settings.T
+            + K / settings.alpha * D_n * v_m * v_m * settings.T
+            + storage::spring(settings.law, &self.damped, self.sample.e)
+    }
+
+    /// The nominal moves on, while the robot gets the force `f` (N), which the caller's limits left of [`f`](Self::f).
+    pub fn commit(self, f: Real, settings: &Settings) -> Committed {
+        let Self { damped, sample, .. } = &self;
+        let T = settings.T;
+        let (v_m, held) = self.v_m(f, settings);
+        let mut v_n = 2.0 * v_m - sample.v_n;
+        if held {
+            v_n = slower(v_n, v_m);
+        }
+        if settings.law == Law::PassiveBounded && f != self.f_demand() {
+            v_n = slower(v_n, midpoint::at_the_bound(damped, T, sample, f / damped.K));
+        }
         Committed {
             axis: Axis {
-                gains: *gains,
-                wanted: *gains,
                 q_n: self.q_n() + T * v_m,
                 v_n: floored(v_n),
-                motion: self.motion,
+                ..self.axis
             },
-            f,
-            supplied: gains.K / settings.alpha * sample.f_h * v_m * T,
+            supplied: damped.K / settings.alpha * sample.f_h * v_m * T,
+            held,
         }
     }
 }
 
-/// The reset: v_b in place of v where it holds no more energy.
-fn slower(v: Real, v_b: Real) -> Real {
-    if v_b * v_b <= v * v { v_b } else { v }
+/// `other` in place of `v` where it holds no more energy.
+fn slower(v: Real, other: Real) -> Real {
+    if other * other <= v * v { other } else { v }
 }

@@ -8,59 +8,157 @@
 //! ```
 //!
 //! A held force does f·Δq of work whatever the path, so this is exact, one sample later: at t_{k+1}, after the slip.
-//! The ports are (f_h ; K v_n/alpha) and (dq ; −tau_a). The tank is observed here, not enforced: it may go negative.
+//! The ports are (f_h ; K v_n/alpha) and (dq ; −tau_a).
+//!
+//! Under `passive_bounded` the tank is *kept* ≥ 0, and with it G ≤ E_0, for every motion within the [`Reach`]:
+//! 1. looking ahead, [`share`](Ledger::share) says how much of a force the tank covers whatever the robot does;
+//! 2. settling, [`settle`](Ledger::settle) gives up the spring as far as it must so that what did happen is paid for. A motion beyond the reach may leave a debt, E < 0; there is no force until it is repaid.
+//!
+//! Under the other laws the tank is observed only.
 //!
 //! With alpha = 0 there is no such port and no storage: [`Ledger::is_defined`] says so, and all values are 0.
 
-use crate::{Real, Settings};
+use crate::{Law, Reach, Real, Settings, budget, real};
 use nalgebra::SVector;
 
-/// The ledger of N axes with one tank.
+/// The ledger of N coordinates with one tank.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Ledger<const N: usize> {
     defined: bool,
+    enforced: bool,
     delayed: bool,
+    T: Real,
     E_0: Real,
+    reach: Reach<N>,
     H: Real,
     G: Real,
     tank: Real,
-    q: SVector<Real, N>,
+    q: Option<SVector<Real, N>>,
+    last_step: Option<SVector<Real, N>>,
+    outside: bool,
     commanded: SVector<Real, N>,
     acting: SVector<Real, N>,
     supplied: Real,
 }
 
+/// What is kept of the stored energy, as shares of e and of v_n in [0, 1].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Keep {
+    /// Share of every position error.
+    pub e: Real,
+    /// Share of every nominal velocity.
+    pub v_n: Real,
+}
+
+impl Keep {
+    /// Everything.
+    pub const ALL: Self = Self { e: 1.0, v_n: 1.0 };
+}
+
+/// A law at a tick, once the position is known: what it stores and can give up.
+pub trait Stored: Sized {
+    /// Energy stored, J. Not finite for alpha = 0.
+    fn stored(&self, settings: &Settings) -> Real;
+    /// The springs' part of it, J.
+    fn spring(&self, settings: &Settings) -> Real;
+    /// With these shares of the position errors and of the nominal velocities kept.
+    #[must_use]
+    fn reduced(&self, keep: Keep) -> Self;
+}
+
 impl<const N: usize> Ledger<N> {
     /// Nothing stored, nothing created, nothing acting.
-    pub fn new(settings: &Settings) -> Self {
+    pub fn new(settings: &Settings, reach: Reach<N>) -> Self {
         let defined = settings.alpha > 0.0;
         Self {
             defined,
+            enforced: defined && settings.law == Law::PassiveBounded,
             delayed: settings.delayed,
+            T: settings.T,
             E_0: settings.E_0,
+            reach,
             H: 0.0,
             G: 0.0,
             tank: if defined { settings.E_0 } else { 0.0 },
-            q: SVector::zeros(),
+            q: None,
+            last_step: None,
+            outside: false,
             commanded: SVector::zeros(),
             acting: SVector::zeros(),
             supplied: 0.0,
         }
     }
 
+    /// Settles the sample that ends now at the position `q` (m), by giving up as much of what `law` stores as must be for
+    /// the tank to stay ≥ 0.
+    #[must_use]
+    pub fn settle<S: Stored>(self, law: S, settings: &Settings, q: &SVector<Real, N>) -> (Self, S) {
+        let H = law.stored(settings);
+        let keep = self.shares_to_keep(H, law.spring(settings), q);
+        if keep == Keep::ALL {
+            return (self.settled(H, q), law);
+        }
+        let reduced = law.reduced(keep);
+        (self.settled(reduced.stored(settings), q), reduced)
+    }
+
+    /// What must be given up at this tick, with the position `q` (m), the energy `H` (J) that the law stores and the
+    /// spring's part of it, for the tank to stay ≥ 0: first from the spring, then from the nominal masses.
+    fn shares_to_keep(&self, H: Real, spring: Real, q: &SVector<Real, N>) -> Keep {
+        let short = self.created(H, q) - self.tank;
+        if !self.enforced || short <= 0.0 {
+            return Keep::ALL;
+        }
+        let left = |energy: Real, short: Real| {
+            if energy > short {
+                real::sqrt(1.0 - short / energy)
+            } else {
+                0.0
+            }
+        };
+        Keep {
+            e: left(spring, short),
+            v_n: if short > spring {
+                left(H - spring, short - spring)
+            } else {
+                1.0
+            },
+        }
+    }
+
     /// Settles the sample that ends now, with the energy `H` (J) that the law stores now and the position `q` (m).
     #[must_use]
     pub fn settled(self, H: Real, q: &SVector<Real, N>) -> Self {
+        let step = self.q.map(|last| q - last);
+        let moved = Self {
+            q: Some(*q),
+            last_step: step,
+            outside: step
+                .is_some_and(|step| self.reach.is_left(&step, self.last_step.as_ref(), self.T)),
+            ..self
+        };
         if !self.defined {
-            return self;
+            return moved;
         }
-        let created = H - self.H + self.acting.dot(&(q - self.q)) - self.supplied;
+        let created = self.created(H, q);
+        // With a delay, a force has been said that acts only now: what may cover it is not poured away.
+        let most = real::max(self.E_0, moved.reserved());
         Self {
             H,
-            q: *q,
             G: self.G + created,
-            tank: (self.tank - created).min(self.E_0),
+            tank: real::min(self.tank - created, most),
+            ..moved
+        }
+    }
+
+    /// The same without a motion to judge the next one by: the law engages, and what was sensed before need not have been
+    /// the robot.
+    #[must_use]
+    pub fn without_motion(self) -> Self {
+        Self {
+            last_step: None,
+            outside: false,
             ..self
         }
     }
@@ -81,6 +179,43 @@ impl<const N: usize> Ledger<N> {
         }
     }
 
+    /// Share of the force `f` (N) that the tank covers, whatever the robot does within its reach. `taken(σ)` is the energy
+    /// (J) that the law is sure to take in the sample that begins with the share σ.
+    ///
+    /// need(σ) = σ max f·Δq − taken(σ) ≤ E
+    ///
+    /// With a delay the force works one sample later, and the one before it works now; both are looked at.
+    pub fn share(&self, f: &SVector<Real, N>, taken: impl Fn(Real) -> Real) -> Real {
+        if !self.enforced {
+            return 1.0;
+        }
+        let last = self.foretelling();
+        let n = if self.delayed { 2 } else { 1 };
+        let work = self.reach.most_work(f, last, n, self.T);
+        let reserved = self.reserved();
+        budget::share(|s| reserved + s * work - taken(s), self.tank)
+    }
+
+    /// Most work (J) in the sample that begins of a force that has been said a sample ago.
+    fn reserved(&self) -> Real {
+        if self.delayed {
+            self.reach
+                .most_work(&self.commanded, self.foretelling(), 1, self.T)
+        } else {
+            0.0
+        }
+    }
+
+    /// The last motion (m), as far as it says anything on the next one: not when it left the reach.
+    fn foretelling(&self) -> Option<&SVector<Real, N>> {
+        self.last_step.as_ref().filter(|_| !self.outside)
+    }
+
+    fn created(&self, H: Real, q: &SVector<Real, N>) -> Real {
+        let work = self.q.map_or(0.0, |last| self.acting.dot(&(q - last)));
+        H - self.H + work - self.supplied
+    }
+
     /// Whether there is an energy to speak of: alpha > 0.
     pub fn is_defined(&self) -> bool {
         self.defined
@@ -99,5 +234,17 @@ impl<const N: usize> Ledger<N> {
     /// E, what the tank holds at the last tick, J.
     pub fn tank(&self) -> Real {
         self.tank
+    }
+
+    /// Whether the last motion exceeded the reach, for which passivity is promised. The first one has no predecessor to
+    /// accelerate from and is held against v_max only.
+    pub fn is_outside(&self) -> bool {
+        self.outside
+    }
+
+    /// Whether the tank is enforced and below zero by more than rounding: a motion beyond the reach has cost more than it
+    /// held.
+    pub fn is_in_debt(&self) -> bool {
+        self.enforced && self.tank < -1e3 * Real::EPSILON * (self.E_0 + self.H)
     }
 }

@@ -40,22 +40,29 @@
 //! On a rotary axis read rad for m, N·m for N, kg·m² for kg. Forces act on the robot and are positive along the axis; q,
 //! q_n and f_h are components along the same axis, in whatever frame the caller uses.
 //!
-//! A tick has three parts, in this order:
-//! 1. [`propose`](Admittance::propose): from q and f_h of this tick, the force that each axis asks for. Pure.
-//! 2. The caller may find that its actuators deliver less, as one factor s in [0, 1] for all axes.
-//! 3. [`commit`](Admittance::commit): the nominal moves on, feeling what its [`Law`] says.
+//! A tick, in this order:
+//! 1. [`sense`](Axes::sense): gains on their way take over, the spring slips.
+//! 2. [`settle`](Ledger::settle): what the last sample created is booked; the tank stays ≥ 0.
+//! 3. [`propose`](axes::Sensed::propose): nominal and coupling are solved together, within the [`Bounds`].
+//! 4. What the actuators deliver of it, then [`share`](Ledger::share): what the tank covers of that.
+//! 5. [`commit`](Axes::commit): the nominal moves on, feeling what its [`Law`] says.
+//!
+//! [`Admittance`] does all of it where the axes are the robot's own; a task space does step 4 at the joints.
 //!
 //! | module | what |
 //! |---|---|
 //! | [`law`] | which reaction the nominal feels: the laws by number and name |
 //! | [`parameters`] | [`Settings`], [`Gains`], their checks and the error that names the culprit |
 //! | [`real`] | the number: double or single precision, and its functions |
-//! | [`motion`] | backward difference, low pass, the bounds of the passivity argument |
+//! | [`motion`] | backward difference, low pass |
 //! | [`midpoint`] | the implicit midpoint rule: the law's arithmetic |
 //! | [`axis`] | one axis: slip, midpoint, clamp, reset |
+//! | [`bounds`] | limits inside the law: speed, position box, hold |
+//! | [`axes`] | N axes, without a ledger |
 //! | [`storage`] | the energy that an axis holds |
 //! | [`retune`] | live gain changes that do not raise it |
 //! | [`ledger`] | what the sampled law created, and the tank |
+//! | [`budget`] | what a force may cost at most, and what share of it the tank covers |
 //! | [`admittance`] | N axes under one ledger |
 //! | [`advice`] | gains that are accepted, but probably not meant |
 //! | [`hand`] | a hand too stiff for the gains: seen by its growing swing, answered with damping |
@@ -74,7 +81,10 @@
 
 pub mod admittance;
 pub mod advice;
+pub mod axes;
 pub mod axis;
+pub mod bounds;
+pub mod budget;
 pub mod comparator;
 pub mod hand;
 pub mod law;
@@ -89,8 +99,11 @@ pub mod servo;
 pub mod sliding_mode;
 pub mod storage;
 
-pub use admittance::{Admittance, Proposal, Tick};
+pub use admittance::{Admittance, Tick};
+pub use axes::{Axes, Request};
 pub use axis::Axis;
+pub use bounds::Bounds;
+pub use budget::Reach;
 pub use law::Law;
 pub use ledger::Ledger;
 pub use motion::Motion;

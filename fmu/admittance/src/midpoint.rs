@@ -43,8 +43,16 @@ pub fn coupled(gains: &Gains, alpha: Real, T: Real, sample: &Sample) -> Midpoint
     let c = alpha * (1.0 + K_P * T / 2.0);
     let v_m = (2.0 * M_n * v_n / T + f_h + alpha * (dq + K_P * T * dq / 2.0 - K_P * e))
         / (2.0 * M_n / T + D_n + c);
-    let y = (v_m - dq) + K_P * (e + T * (v_m - dq) / 2.0);
+    let y = coupling(gains, T, sample, v_m);
     Midpoint { v_m, y }
+}
+
+/// The coupling's answer to a nominal that moves with `v_m` (m/s) over the sample: y at its middle (m/s).
+///
+/// y = w + K_P(e + T w/2), w = v_m − dq
+pub fn coupling(gains: &Gains, T: Real, sample: &Sample, v_m: Real) -> Real {
+    let w = v_m - sample.dq;
+    w + gains.K_P * (sample.e + T * w / 2.0)
 }
 
 /// The nominal under a given reaction alpha·y_s, y_s being what the limits left of y (m/s). Returns v_m (m/s).

@@ -11,9 +11,7 @@ use crate::{Real, Settings};
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Motion {
     q: Option<Real>,
-    difference: Option<Real>,
     dq: Real,
-    outside_bounds: bool,
 }
 
 impl Motion {
@@ -27,29 +25,19 @@ impl Motion {
             };
         };
         let difference = (q - last) / settings.T;
-        let change = self.difference.map_or(0.0, |before| difference - before);
         Self {
             q: Some(q),
-            difference: Some(difference),
             dq: if settings.dq_cutoff > 0.0 {
                 floored(self.dq + weight(settings) * (difference - self.dq))
             } else {
                 difference
             },
-            outside_bounds: real::abs(difference) > settings.v_max
-                || real::abs(change) > settings.a_max * settings.T,
         }
     }
 
     /// The velocity that the law uses, m/s.
     pub fn dq(&self) -> Real {
         self.dq
-    }
-
-    /// Whether the motion since the last tick exceeded v_max or a_max, within which the passivity argument is made. The
-    /// first interval has no predecessor to accelerate from and is held against v_max only.
-    pub fn outside_bounds(&self) -> bool {
-        self.outside_bounds
     }
 }
 

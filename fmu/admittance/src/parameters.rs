@@ -21,10 +21,8 @@ pub struct Settings {
     pub dq_cutoff: Real,
     /// Energy with which the tank starts and above which it does not fill, J.
     pub E_0: Real,
-    /// Largest speed for which the passivity argument is made, m/s.
-    pub v_max: Real,
-    /// Largest acceleration for which the passivity argument is made, m/s².
-    pub a_max: Real,
+    /// Time that changed gains take to come into force, on a straight line, s; 0 = at once.
+    pub tuning_time: Real,
 }
 
 impl Default for Settings {
@@ -37,8 +35,7 @@ impl Default for Settings {
             delayed: false,
             dq_cutoff: 0.0,
             E_0: 10.0,
-            v_max: 10.0,
-            a_max: 1e4,
+            tuning_time: 0.1,
         }
     }
 }
@@ -152,6 +149,8 @@ pub const POSITIVE: Range = ("a finite value greater than 0", |x| {
 pub const NOT_NEGATIVE: Range = ("a finite value not less than 0", |x| {
     x >= 0.0 && x.is_finite()
 });
+/// Any number, also infinite.
+pub const NOT_NAN: Range = ("a number", |x| !x.is_nan());
 /// Greater than 0, also infinite: a limit that does not limit.
 pub const LIMIT: Range = ("a value greater than 0", |x| x > 0.0);
 
@@ -193,10 +192,15 @@ impl Settings {
                 ("T", self.T, POSITIVE),
                 ("dq_cutoff", self.dq_cutoff, NOT_NEGATIVE),
                 ("E_0", self.E_0, NOT_NEGATIVE),
-                ("v_max", self.v_max, LIMIT),
-                ("a_max", self.a_max, LIMIT),
+                ("tuning_time", self.tuning_time, NOT_NEGATIVE),
             ],
         )
+    }
+
+    /// Ticks that changed gains take to come into force.
+    pub fn tuning_ticks(&self) -> u32 {
+        // The conversion saturates: 4e9 ticks are for ever.
+        (self.tuning_time / self.T + 0.5) as u32
     }
 
     /// The damper through which the nominal feels y, N·s/m: alpha, or 0 under [`Law::Standard`].
@@ -210,6 +214,27 @@ impl Settings {
 }
 
 impl Gains {
+    /// These gains one tick further on the straight way to `wanted`, of which `remaining` ticks are left (at least 1). A
+    /// gain that is infinite, or is to be, changes at once.
+    #[must_use]
+    pub fn toward(&self, wanted: &Self, remaining: u32) -> Self {
+        let next = |from: Real, to: Real| {
+            let step = (to - from) / remaining as Real;
+            if remaining > 1 && step.is_finite() {
+                from + step
+            } else {
+                to
+            }
+        };
+        Self {
+            M_n: next(self.M_n, wanted.M_n),
+            D_n: next(self.D_n, wanted.D_n),
+            K: next(self.K, wanted.K),
+            K_P: next(self.K_P, wanted.K_P),
+            f_max: next(self.f_max, wanted.f_max),
+        }
+    }
+
     /// Whether an axis can be built with them; `axis` (from 1) is for the message.
     ///
     /// # Errors

@@ -11,8 +11,7 @@ const SETTINGS: Settings = Settings {
     delayed: false,
     dq_cutoff: 0.0,
     E_0: 10.0,
-    v_max: 10.0,
-    a_max: 1e4,
+    tuning_time: 0.1,
 };
 
 /// The number of the advice for a robot of 16 kg; T = 1/128 s, so that every bound below is an exact binary number.

@@ -2,7 +2,7 @@
 #![allow(non_snake_case, reason = "the paper's symbols")]
 
 mod robot;
-use admittance::{Admittance, Gains, Law, ParameterError, Settings};
+use admittance::{Admittance, Gains, Law, ParameterError, Reach, Settings};
 use nalgebra::Vector1;
 use robot::{tick, unlimited};
 
@@ -71,15 +71,19 @@ fn the_low_pass_is_the_exact_sampled_first_order_one() {
     }
 }
 
+fn reach(v_max: f64, a_max: f64) -> Reach<1> {
+    Reach {
+        v_max: Vector1::new(v_max),
+        a_max: Vector1::new(a_max),
+    }
+}
+
 #[test]
 fn motion_beyond_v_max_or_a_max_is_flagged_for_that_tick() {
-    let settings = Settings {
-        v_max: 1.0,
-        a_max: 100.0,
-        ..Settings::default()
-    };
     let flags = |differences: &[f64]| {
-        let mut law = Admittance::new(settings, [GAINS]).expect("valid parameters");
+        let mut law = Admittance::new(Settings::default(), [GAINS])
+            .and_then(|law| law.reaching(reach(1.0, 100.0)))
+            .expect("valid parameters");
         let mut q = 0.0;
         tick(&mut law, q, 0.0);
         let mut flag = |dq: &f64| {
@@ -132,11 +136,20 @@ fn errors_name_the_parameter_the_axis_the_value_and_the_range() {
         format!("E_0 = -2: {finite} not less than 0")
     );
     assert_eq!(
-        settings(|s| s.v_max = 0.0),
-        "v_max = 0: expected a value greater than 0"
+        settings(|s| s.tuning_time = -1.0),
+        format!("tuning_time = -1: {finite} not less than 0")
+    );
+    let reaching = |v_max, a_max| {
+        let law = Admittance::new(Settings::default(), [GAINS]).expect("valid parameters");
+        let error = law.reaching(reach(v_max, a_max)).expect_err("out of range");
+        error.to_string()
+    };
+    assert_eq!(
+        reaching(f64::INFINITY, 1.0),
+        format!("v_max = inf: {finite} greater than 0")
     );
     assert_eq!(
-        settings(|s| s.a_max = f64::NAN),
+        reaching(1.0, f64::NAN),
         "a_max = NaN: expected a value greater than 0"
     );
     let offered = "1 (standard), 2 (passive), 3 (passive_applied), 4 (passive_bounded)";

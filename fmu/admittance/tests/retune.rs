@@ -4,7 +4,7 @@
 mod robot;
 use admittance::retune::taken_over;
 use admittance::storage::{extension, spring, stored};
-use admittance::{Gains, Law};
+use admittance::{Admittance, Gains, Law, Settings};
 use proptest::prelude::*;
 use robot::{tick, unlimited};
 
@@ -95,7 +95,12 @@ fn tuning_at_every_tick_creates_nothing() {
             K_P: 10.0,
             f_max: 12.5,
         };
-        let mut law = robot::law(which, 0.002, base);
+        let settings = Settings {
+            law: which,
+            tuning_time: 0.0,
+            ..Settings::default()
+        };
+        let mut law = Admittance::new(settings, [base]).expect("valid parameters");
         for k in 0..5000_u32 {
             let vary = |period: u32| if k % period < period / 2 { 3.0 } else { 1.0 };
             let f_max = if which == Law::Passive {

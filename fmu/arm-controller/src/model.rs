@@ -1,13 +1,13 @@
 //! The variables and what a step does.
 
 use admittance::advice::{Advice, advise};
-use admittance::{Gains, Law, ParameterError, Settings};
-use arm_law::kinematics::{Kinematics, Pose};
+use admittance::{Bounds, Gains, Law, ParameterError, Reach, Settings};
+use arm_law::ArmLaw;
+use arm_law::arm_law::{Frame, Inputs, Outputs, Parameters};
+use arm_law::kinematics::Kinematics;
 use arm_law::limits::{Limits, TorqueLimiting};
 use arm_law::singularity::Singularity;
-use arm_law::task_space::{Outcome, TaskSpace};
 use export::{Log, Model, Refusal, Step, Ticks};
-use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 /// The controller. What each variable is, with unit, sign and frame, stands in its row ([`rows`](crate::rows)).
@@ -45,8 +45,8 @@ pub struct ArmController {
     pub torque_limiting: i32,
     pub T: f64,
     pub delay: i32,
-    pub v_max: f64,
-    pub a_max: f64,
+    pub dq_max: [f64; 3],
+    pub ddq_max: [f64; 3],
     pub dp_cutoff: f64,
     pub kinematics: Kinematics,
     pub ft: ForceSensor,
@@ -54,9 +54,17 @@ pub struct ArmController {
 
     pub M_min: f64,
     pub gain_warning: i32,
+    pub hold: bool,
+    pub held: bool,
+    pub tuning_time: f64,
+    pub dp_n_max: [f64; 3],
+    pub p_n_box: bool,
+    pub p_n_min: [f64; 3],
+    pub p_n_max: [f64; 3],
+    pub tau_rate_max: [f64; 3],
 
     ticks: Ticks,
-    task_space: Option<TaskSpace>,
+    arm_law: Option<ArmLaw>,
 }
 
 /// The variables `energy.*`.
@@ -67,6 +75,8 @@ pub struct Energy {
     pub G: f64,
     pub tank: f64,
     pub E_0: f64,
+    pub share: f64,
+    pub debt: bool,
 }
 
 /// The variables `ft.*`.
@@ -76,11 +86,6 @@ pub struct ForceSensor {
     pub frame: i32,
 }
 
-/// `ft.frame`: f_h in the base frame.
-const BASE: i32 = 1;
-/// `ft.frame`: f_h in link 3's frame.
-const SENSOR: i32 = 2;
-
 impl Default for ArmController {
     fn default() -> Self {
         let Settings {
@@ -89,6 +94,7 @@ impl Default for ArmController {
             delayed,
             dq_cutoff,
             E_0,
+            tuning_time,
             ..
         } = Settings::default();
         Self {
@@ -109,6 +115,8 @@ impl Default for ArmController {
                 G: 0.0,
                 tank: E_0,
                 E_0,
+                share: 1.0,
+                debt: false,
             },
             dp: [0.0; 3],
             tau_demand: [0.0; 3],
@@ -126,42 +134,43 @@ impl Default for ArmController {
             torque_limiting: TorqueLimiting::Scale as i32,
             T: 0.001,
             delay: i32::from(delayed),
-            v_max: 2.0,
-            a_max: 1e3,
+            dq_max: [6.0; 3],
+            ddq_max: [3e3; 3],
             dp_cutoff: dq_cutoff,
             kinematics: Kinematics::default(),
-            ft: ForceSensor { frame: BASE },
+            ft: ForceSensor { frame: 1 },
             singularity: Singularity::default(),
             M_min: 14.0,
             gain_warning: 0,
+            hold: false,
+            held: false,
+            tuning_time,
+            dp_n_max: [0.0; 3],
+            p_n_box: false,
+            p_n_min: [-1.0; 3],
+            p_n_max: [1.0; 3],
+            tau_rate_max: [0.0; 3],
             ticks: Ticks::default(),
-            task_space: None,
+            arm_law: None,
         }
     }
 }
 
 impl Model for ArmController {
     fn initialize(&mut self, _start_time: f64, log: &mut Log<'_>) -> Result<(), Refusal> {
-        let settings = self.settings()?;
-        let limits = self.limits(settings.law)?;
-        let gains = self.gains(settings.law)?;
-        self.kinematics.check().map_err(refusal)?;
-        self.singularity.check().map_err(refusal)?;
-        if ![BASE, SENSOR].contains(&self.ft.frame) {
-            let frame = self.ft.frame;
-            return Err(Refusal(format!(
-                "ft.frame = {frame}: expected 1 (base), 2 (sensor)"
-            )));
-        }
-        let mut task_space =
-            TaskSpace::new(settings, gains, limits, self.singularity).map_err(refusal)?;
+        let arm_law = ArmLaw::new(&self.parameters()?).map_err(refusal)?;
         self.gain_warning = 0;
         self.advise(log)?;
-        let q = self.q.into();
-        let pose = self.kinematics.at(&q);
-        let out_of_the_loop = task_space.rest(&pose, &q);
-        self.show(&pose, &out_of_the_loop, &task_space);
-        self.task_space = Some(task_space);
+        // What is shown is a law at rest; what begins to run knows no motion yet.
+        let mut at_rest = arm_law;
+        let shown = at_rest
+            .tick(&Inputs {
+                engage: false,
+                ..self.inputs()
+            })
+            .map_err(|_| self.overflow("the start"))?;
+        self.show(&shown, &at_rest);
+        self.arm_law = Some(arm_law);
         self.ticks = Ticks::default();
         self.tick = -1;
         Ok(())
@@ -169,9 +178,9 @@ impl Model for ArmController {
 
     fn tune(&mut self, log: &mut Log<'_>) -> Result<(), Refusal> {
         let gains = self.gains(Law::try_from(self.law).map_err(refusal)?)?;
-        self.task_space
+        self.arm_law
             .as_mut()
-            .map_or(Ok(()), |task_space| task_space.tune(gains))
+            .map_or(Ok(()), |arm_law| arm_law.tune(gains))
             .map_err(refusal)?;
         self.advise(log)
     }
@@ -181,30 +190,74 @@ impl Model for ArmController {
     }
 
     fn step(&mut self, step: Step, _log: &mut Log<'_>) -> Result<(), Refusal> {
-        let mut task_space = self
-            .task_space
+        let mut arm_law = self
+            .arm_law
             .ok_or_else(|| Refusal::new("a step before initialization"))?;
-        let q = self.q.into();
-        let pose = self.kinematics.at(&q);
-        let f_h = self.f_h_in_base(&pose);
+        let inputs = self.inputs();
         for k in self.ticks.within(&step, self.T) {
-            let outcome = if self.engage {
-                task_space.step(&pose, &q, &f_h).map_err(refusal)?
-            } else {
-                task_space.rest(&pose, &q)
-            };
-            if !is_finite(&outcome, &task_space) {
-                return Err(self.overflow(k));
-            }
-            self.show(&pose, &outcome, &task_space);
+            let outputs = arm_law
+                .tick(&inputs)
+                .map_err(|_| self.overflow(&format!("tick {k}")))?;
+            self.show(&outputs, &arm_law);
             self.tick = i32::try_from(k).unwrap_or(i32::MAX);
         }
-        self.task_space = Some(task_space);
+        self.arm_law = Some(arm_law);
         Ok(())
     }
 }
 
 impl ArmController {
+    fn parameters(&self) -> Result<Parameters, Refusal> {
+        let settings = self.settings()?;
+        let limits = self.limits(settings.law)?;
+        Ok(Parameters {
+            settings,
+            gains: self.gains(settings.law)?,
+            bounds: std::array::from_fn(|i| self.bounds(i)),
+            reach: Reach {
+                v_max: self.dq_max.into(),
+                a_max: self.ddq_max.into(),
+            },
+            kinematics: self.kinematics,
+            limits,
+            singularity: self.singularity,
+            frame: match self.ft.frame {
+                1 => Frame::Base,
+                2 => Frame::Link3,
+                other => {
+                    return Err(Refusal(format!(
+                        "ft.frame = {other}: expected 1 (base), 2 (sensor)"
+                    )));
+                }
+            },
+        })
+    }
+
+    fn bounds(&self, i: usize) -> Bounds {
+        let speed = or_none(self.dp_n_max[i]);
+        if self.p_n_box {
+            Bounds {
+                speed,
+                q_min: self.p_n_min[i],
+                q_max: self.p_n_max[i],
+            }
+        } else {
+            Bounds {
+                speed,
+                ..Bounds::default()
+            }
+        }
+    }
+
+    fn inputs(&self) -> Inputs {
+        Inputs {
+            q: self.q.into(),
+            f_h: self.f_h.into(),
+            engage: self.engage,
+            hold: self.hold,
+        }
+    }
+
     fn settings(&self) -> Result<Settings, Refusal> {
         let settings = Settings {
             law: Law::try_from(self.law).map_err(refusal)?,
@@ -217,8 +270,7 @@ impl ArmController {
             },
             dq_cutoff: self.dp_cutoff,
             E_0: self.energy.E_0,
-            v_max: self.v_max,
-            a_max: self.a_max,
+            tuning_time: self.tuning_time,
         };
         settings.check().map_err(refusal)?;
         Ok(settings)
@@ -244,6 +296,7 @@ impl ArmController {
         }
         let limits = Limits {
             tau_max: self.tau_max.into(),
+            tau_rate: self.tau_rate_max.map(or_none).into(),
             limiting,
         };
         limits.check().map_err(refusal)?;
@@ -286,69 +339,49 @@ impl ArmController {
         Ok(())
     }
 
-    /// f_h (N) in the base frame.
-    fn f_h_in_base(&self, pose: &Pose) -> Vector3<f64> {
-        let f_h = self.f_h.into();
-        if self.ft.frame == SENSOR {
-            pose.R * f_h
-        } else {
-            f_h
-        }
-    }
-
-    fn show(&mut self, pose: &Pose, outcome: &Outcome, task_space: &TaskSpace) {
-        let Outcome {
-            law,
-            f_a,
-            tau,
-            tau_demand,
-            saturated,
+    fn show(&mut self, outputs: &Outputs, arm_law: &ArmLaw) {
+        let Outputs {
+            pose,
+            outcome,
             slowed,
-        } = outcome;
+        } = outputs;
         self.p = pose.p.into();
         self.sigma_min = pose.sigma_min;
-        self.p_n = law.q_n.into();
-        self.dp_n = law.dq_n.into();
-        self.e_nr = law.e_nr.into();
-        self.dp = law.dq.into();
-        self.outside_bounds = law.outside_bounds;
-        self.engaged = law.engaged;
-        self.f_a = (*f_a).into();
-        self.tau_a = (*tau).into();
-        self.tau_demand = (*tau_demand).into();
-        (self.saturated, self.slowed) = (*saturated, *slowed);
-        let ledger = task_space.ledger();
+        self.p_n = outcome.p_n.into();
+        self.dp_n = outcome.dp_n.into();
+        self.e_nr = outcome.e_nr.into();
+        self.dp = outcome.dp.into();
+        self.f_a = outcome.f_a.into();
+        self.tau_a = outcome.tau.into();
+        self.tau_demand = outcome.tau_demand.into();
+        self.saturated = outcome.saturated;
+        self.held = outcome.held;
+        self.outside_bounds = outcome.outside_bounds;
+        self.engaged = outcome.engaged;
+        self.slowed = *slowed;
+        let ledger = arm_law.ledger();
         self.energy = Energy {
             H: ledger.H(),
             G: ledger.G(),
             tank: ledger.tank(),
+            share: outcome.share,
+            debt: ledger.is_in_debt(),
             ..self.energy
         };
     }
 
     #[cold]
-    fn overflow(&self, tick: u64) -> Refusal {
+    fn overflow(&self, when: &str) -> Refusal {
         let Self { q, f_h, .. } = self;
         Refusal(format!(
-            "tick {tick}: the law's result is not finite with q = {q:?} rad and f_h = {f_h:?} N"
+            "{when}: the law's result is not finite with q = {q:?} rad and f_h = {f_h:?} N"
         ))
     }
 }
 
-/// Whether all that follows from a tick is: a torque that is not a number must not reach the robot.
-fn is_finite(outcome: &Outcome, task_space: &TaskSpace) -> bool {
-    let Outcome {
-        law,
-        f_a,
-        tau,
-        tau_demand,
-        ..
-    } = outcome;
-    [f_a, tau, tau_demand, &law.q_n, &law.dq_n]
-        .into_iter()
-        .flatten()
-        .chain(&[task_space.ledger().G()])
-        .all(|value| value.is_finite())
+/// A limit of the interface, where 0 stands for none.
+fn or_none(limit: f64) -> f64 {
+    if limit == 0.0 { f64::INFINITY } else { limit }
 }
 
 /// A parameter error under the names of this interface.
@@ -361,6 +394,11 @@ fn refusal(error: ParameterError) -> Refusal {
             expected,
         } => ParameterError::OutOfRange {
             name: match name {
+                "v_max" => "dq_max",
+                "a_max" => "ddq_max",
+                "speed_max" => "dp_n_max",
+                "q_min" => "p_n_min",
+                "q_max" => "p_n_max",
                 "M_n" => "Lambda_n",
                 "E_0" => "energy.E_0",
                 "dq_cutoff" => "dp_cutoff",

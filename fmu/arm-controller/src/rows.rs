@@ -151,8 +151,8 @@ impl Declare for ArmController {
                 .about("Joint torques J' K y before any limit (eq:dob_input)"),
             boolean!(engaged).output(Discrete).about("Whether the controller was in the loop at this tick"),
             boolean!(outside_bounds).output(Discrete).about(
-                "Whether the handle's motion since the last tick exceeded v_max or a_max along an axis, to which the passivity \
-                 argument is restricted",
+                "Whether the joints' motion since the last tick exceeded dq_max or ddq_max, to which the passivity argument is \
+                 restricted",
             ),
             boolean!(slowed)
                 .output(Discrete)
@@ -197,14 +197,12 @@ impl Declare for ArmController {
                 .parameter(Fixed)
                 .at_least(0.0)
                 .about("Energy with which the tank starts and above which it does not fill"),
-            real!(v_max, unit::METRE_PER_SECOND)
-                .parameter(Fixed)
-                .at_least(SMALLEST)
-                .about("Largest speed of the handle along an axis for which the passivity argument is made"),
-            real!(a_max, unit::METRE_PER_SECOND_SQUARED)
-                .parameter(Fixed)
-                .at_least(SMALLEST)
-                .about("Largest acceleration of the handle along an axis for which the passivity argument is made"),
+            real!(dq_max[3], unit::RADIAN_PER_SECOND).parameter(Fixed).at_least(SMALLEST).about(
+                "Largest speed of the joints: the energy budget covers every motion within it",
+            ),
+            real!(ddq_max[3], unit::RADIAN_PER_SECOND_SQUARED).parameter(Fixed).at_least(SMALLEST).about(
+                "Largest acceleration of the joints: the energy budget covers every motion within it",
+            ),
             real!(dp_cutoff, unit::HERTZ)
                 .parameter(Fixed)
                 .at_least(0.0)
@@ -238,6 +236,40 @@ impl Declare for ArmController {
             integer!(gain_warning).output(Discrete).initially_from(&["M_min", "Lambda_n[i]", "K[i]", "T"]).about(
                 "Gains that are accepted but probably not meant: 0 none, 1 K*T/M_min above 0.25, 2 a Lambda_n below M_min/10, 3 both",
             ),
+            boolean!(hold).input(Discrete).about(
+                "Whether the nominal stays where it is: the coupling then carries any load within f_max without drift",
+            ),
+            boolean!(held)
+                .output(Discrete)
+                .about("Whether hold, dp_n_max or the position box kept the nominal back at this tick"),
+            real!(energy.share, unit::NONE).output(Discrete).about(
+                "Share of the torques that the energy budget left at this tick; 1 unless something is wrong",
+            ),
+            boolean!(energy.debt).output(Discrete).about(
+                "Whether the tank is below 0: a motion beyond dq_max and ddq_max cost more than it held; no torque until it is \
+                 repaid",
+            ),
+            real!(tuning_time, unit::SECOND)
+                .parameter(Fixed)
+                .at_least(0.0)
+                .about("Time in which changed gains come into force, on a straight line; 0 = at once"),
+            real!(dp_n_max[3], unit::METRE_PER_SECOND)
+                .parameter(Fixed)
+                .at_least(0.0)
+                .about("Largest speed of the nominal along x, y, z; 0 = no limit"),
+            boolean!(p_n_box)
+                .parameter(Fixed)
+                .about("Whether the nominal keeps within p_n_min and p_n_max"),
+            real!(p_n_min[3], unit::METRE)
+                .parameter(Fixed)
+                .about("Least position of the nominal handle along x, y, z; base frame"),
+            real!(p_n_max[3], unit::METRE)
+                .parameter(Fixed)
+                .about("Largest position of the nominal handle along x, y, z; base frame"),
+            real!(tau_rate_max[3], unit::NEWTON_METRE_PER_SECOND)
+                .parameter(Fixed)
+                .at_least(0.0)
+                .about("Largest rate of change of tau_a while the controller is in the loop; 0 = no limit"),
         ],
     };
 }

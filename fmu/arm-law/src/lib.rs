@@ -3,6 +3,7 @@
 //! | module | what |
 //! |---|---|
 //! | [`joint_space`] | the law in joint space, with M_n(q) and C_n(q, dq) |
+//! | [`arm_law`] | the complete law: from what is sensed at a tick to the torques |
 //! | [`kinematics`] | position, Jacobian, smallest singular value and frame of link 3 |
 //! | [`limits`] | what the joints deliver of a torque: one common factor, or each joint clipped |
 //! | [`nominal`] | the nominal arm: M_n(q), C_n(q, dq), transport of the nominal velocity |
@@ -10,6 +11,7 @@
 //! | [`supervision`] | when the law may act: states, faults, their diagnostics |
 //! | [`task_space`] | a tick: the law at the handle, its torques and its ledger at the joints |
 //! | [`wrench`] | the hand's force from a six-axis force sensor: tare, tool weight, lever arm, faults, filter, deadband |
+//! | [`task_space`] | the law at the handle, its torques and its ledger at the joints |
 //!
 //! No heap, no clock, no I/O, no unsafe, no panic; it depends on `admittance` and `nalgebra`. The feature `serde` makes
 //! the state storable. The package `arm-law-f32` compiles these sources in single precision.
@@ -21,6 +23,7 @@
     reason = "the paper's symbols with its capitals: Lambda_n, K_P, J, T"
 )]
 
+pub mod arm_law;
 pub mod joint_space;
 pub mod kinematics;
 pub mod limits;
@@ -31,3 +34,4 @@ pub mod task_space;
 pub mod wrench;
 
 pub use admittance::{ParameterError, Real};
+pub use arm_law::ArmLaw;

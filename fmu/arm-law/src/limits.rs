@@ -1,6 +1,6 @@
 //! What the joints deliver of the torque that they are asked for.
 
-use admittance::parameters::{POSITIVE, check};
+use admittance::parameters::{LIMIT, POSITIVE, check};
 use admittance::{ParameterError, Real, real};
 use nalgebra::Vector3;
 
@@ -21,6 +21,9 @@ pub enum TorqueLimiting {
 pub struct Limits {
     /// Largest absolute torque of each joint, N·m, > 0.
     pub tau_max: Vector3<Real>,
+    /// Largest rate of change of each joint's torque, N·m/s, > 0, infinite for no limit. The energy budget and leaving the
+    /// loop may take a torque away faster.
+    pub tau_rate: Vector3<Real>,
     /// How they act.
     pub limiting: TorqueLimiting,
 }
@@ -51,9 +54,16 @@ impl Limits {
     /// # Errors
     /// The first limit out of its range.
     pub fn check(&self) -> Result<(), ParameterError> {
-        (1..)
-            .zip(&self.tau_max)
-            .try_for_each(|(joint, tau_max)| check(Some(joint), &[("tau_max", *tau_max, POSITIVE)]))
+        for (joint, (tau_max, tau_rate)) in (1..).zip(self.tau_max.iter().zip(&self.tau_rate)) {
+            check(
+                Some(joint),
+                &[
+                    ("tau_max", *tau_max, POSITIVE),
+                    ("tau_rate_max", *tau_rate, LIMIT),
+                ],
+            )?;
+        }
+        Ok(())
     }
 
     /// What is delivered of `tau` (N·m), which is finite.

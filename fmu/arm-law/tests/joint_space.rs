@@ -1,7 +1,7 @@
 //! The law in joint space: against the law of one axis, its own energy formula, and the continuous equations.
 #![allow(non_snake_case, reason = "the paper's symbols")]
 
-use admittance::{Admittance, Gains, Law, Ledger, Real, Settings};
+use admittance::{Admittance, Gains, Law, Ledger, Reach, Real, Settings};
 use arm_law::ParameterError;
 use arm_law::joint_space::{Committed, JointGains, Joints};
 use arm_law::kinematics::Kinematics;
@@ -41,7 +41,7 @@ impl Run {
     fn new(settings: Settings, arm: NominalArm, gains: JointGains) -> Self {
         Self {
             joints: Joints::new(settings, arm, geometry(), gains).unwrap(),
-            ledger: Ledger::new(&settings),
+            ledger: Ledger::new(&settings, Reach::default()),
         }
     }
 

@@ -1,8 +1,8 @@
 //! One of the controllers that the model offers, behind one tick.
 
 use admittance::{
-    Admittance, Gains, Law, Natural, ParameterError, Servo, Settings, SlidingMode, comparator,
-    servo,
+    Admittance, Bounds, Gains, Law, Natural, ParameterError, Reach, Request, Servo, Settings,
+    SlidingMode, comparator, servo,
 };
 use nalgebra::Vector1;
 use serde::{Deserialize, Serialize};
@@ -23,6 +23,28 @@ pub struct Comparator {
     pub M: f64,
     /// Time constant of the sliding surface (s), for `sliding_mode`.
     pub H: f64,
+}
+
+/// Limits inside the four laws in torque form, and the reach that their budget covers.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Limits {
+    /// How fast the robot can move.
+    pub reach: Reach<1>,
+    /// What the nominal keeps to.
+    pub bounds: Bounds,
+    /// Largest rate of change of the force, N/s.
+    pub f_rate: f64,
+}
+
+/// What is asked of the controller at a tick.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Demand {
+    /// Out of the loop.
+    Rest,
+    /// In the loop.
+    Run,
+    /// In the loop, the nominal stays where it is; the four laws in torque form only.
+    Hold,
 }
 
 /// The controller between two ticks.
@@ -66,11 +88,14 @@ pub struct Done {
     pub q_d: f64,
     pub dq_d: f64,
     pub saturated: bool,
+    pub held: bool,
     pub outside_bounds: bool,
     pub engaged: bool,
     pub H: f64,
     pub G: f64,
     pub tank: f64,
+    pub share: f64,
+    pub debt: bool,
 }
 
 impl Done {
@@ -92,6 +117,7 @@ impl Controller {
         gains: Gains,
         form: Form,
         comparator: Comparator,
+        limits: Limits,
     ) -> Result<Self, ParameterError> {
         Ok(match (settings.law, form) {
             (Law::Passive | Law::Natural | Law::SlidingMode, Form::PositionServo) => {
@@ -102,7 +128,13 @@ impl Controller {
             (Law::SlidingMode, _) => {
                 Self::SlidingMode(SlidingMode::new(settings, gains, comparator.H)?)
             }
-            _ => Self::Law(Admittance::new(settings, [gains])?),
+            _ => {
+                let mut law = Admittance::new(settings, [gains])?
+                    .reaching(limits.reach)?
+                    .rated(Vector1::new(limits.f_rate))?;
+                law.bound([limits.bounds])?;
+                Self::Law(law)
+            }
         })
     }
 
@@ -120,12 +152,17 @@ impl Controller {
     }
 
     /// One tick, in the loop or out of it.
-    pub fn tick(&mut self, sensed: &Sensed, engage: bool) -> Done {
+    pub fn tick(&mut self, sensed: &Sensed, demand: Demand) -> Done {
         let Sensed { q, tau_h, tau_m } = *sensed;
+        let engage = demand != Demand::Rest;
         match self {
             Self::Law(law) => {
                 let tick = if engage {
-                    law.step(&Vector1::new(q), &Vector1::new(tau_h))
+                    let request = Request {
+                        hold: demand == Demand::Hold,
+                        ..Request::default()
+                    };
+                    law.tick(&Vector1::new(q), &Vector1::new(tau_h), &request)
                 } else {
                     law.rest(&Vector1::new(q))
                 };
@@ -140,11 +177,14 @@ impl Controller {
                     q_d: tick.q_n.x,
                     dq_d: tick.dq_n.x,
                     saturated: tick.saturated,
+                    held: tick.held,
                     outside_bounds: tick.outside_bounds,
                     engaged: tick.engaged,
                     H: ledger.H(),
                     G: ledger.G(),
                     tank: ledger.tank(),
+                    share: tick.share,
+                    debt: ledger.is_in_debt(),
                 }
             }
             Self::Servo(servo) => {
@@ -186,11 +226,14 @@ fn in_servo_form(tick: &servo::Tick, energy: &servo::Energy, engaged: bool) -> D
         q_d: tick.q_d,
         dq_d: tick.dq_d,
         saturated: tick.saturated,
+        held: false,
         outside_bounds: false,
         engaged,
         H: energy.H,
         G: energy.G,
         tank: energy.tank,
+        share: 1.0,
+        debt: false,
     }
 }
 
@@ -205,10 +248,13 @@ fn compared(tick: &comparator::Tick, engaged: bool) -> Done {
         q_d: tick.q_n,
         dq_d: tick.dq_n,
         saturated: tick.is_saturated(),
+        held: false,
         outside_bounds: false,
         engaged,
         H: 0.0,
         G: 0.0,
         tank: 0.0,
+        share: 1.0,
+        debt: false,
     }
 }

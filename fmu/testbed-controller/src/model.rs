@@ -1,9 +1,10 @@
 //! The variables and what a step does.
 
-use crate::controller::{self, Controller, Done, Form, Sensed};
+use crate::controller::{self, Controller, Demand, Done, Form, Limits, Sensed};
 use admittance::advice::advise;
-use admittance::{Gains, Law, ParameterError, Settings};
+use admittance::{Bounds, Gains, Law, ParameterError, Reach, Settings};
 use export::{Log, Model, Refusal, Step, Ticks};
+use nalgebra::Vector1;
 use serde::{Deserialize, Serialize};
 
 /// The controller. What each variable is, with unit and sign, stands in its row ([`rows`](crate::rows)).
@@ -46,6 +47,14 @@ pub struct TestbedController {
     pub dq_d: f64,
     pub form: i32,
     pub comparator: Comparator,
+    pub hold: bool,
+    pub held: bool,
+    pub tuning_time: f64,
+    pub dq_n_max: f64,
+    pub q_n_box: bool,
+    pub q_n_min: f64,
+    pub q_n_max: f64,
+    pub tau_rate_max: f64,
 
     ticks: Ticks,
     controller: Option<Controller>,
@@ -67,6 +76,8 @@ pub struct Energy {
     pub G: f64,
     pub tank: f64,
     pub E_0: f64,
+    pub share: f64,
+    pub debt: bool,
 }
 
 impl Default for TestbedController {
@@ -78,8 +89,7 @@ impl Default for TestbedController {
             delayed,
             dq_cutoff,
             E_0,
-            v_max,
-            a_max,
+            tuning_time,
         } = Settings::default();
         Self {
             q: 0.0,
@@ -96,6 +106,8 @@ impl Default for TestbedController {
                 G: 0.0,
                 tank: E_0,
                 E_0,
+                share: 1.0,
+                debt: false,
             },
             dq: 0.0,
             tau_demand: 0.0,
@@ -110,8 +122,8 @@ impl Default for TestbedController {
             tau_max: 12.5,
             T,
             delay: i32::from(delayed),
-            v_max,
-            a_max,
+            v_max: 10.0,
+            a_max: 1e4,
             dq_cutoff,
             M_min: 6.0,
             gain_warning: 0,
@@ -120,6 +132,14 @@ impl Default for TestbedController {
             dq_d: 0.0,
             form: 1,
             comparator: Comparator { M: 6.0, H: 0.7 },
+            hold: false,
+            held: false,
+            tuning_time,
+            dq_n_max: 0.0,
+            q_n_box: false,
+            q_n_min: -1.0,
+            q_n_max: 1.0,
+            tau_rate_max: 0.0,
             ticks: Ticks::default(),
             controller: None,
         }
@@ -128,17 +148,13 @@ impl Default for TestbedController {
 
 impl Model for TestbedController {
     fn initialize(&mut self, _start_time: f64, log: &mut Log<'_>) -> Result<(), Refusal> {
-        let mut controller = Controller::new(
-            self.settings()?,
-            self.gains(),
-            self.form()?,
-            self.comparator(),
-        )
-        .map_err(refusal)?;
+        let controller = self.controller()?;
         self.gain_warning = 0;
         self.advise(log)?;
-        let out_of_the_loop = controller.tick(&self.sensed(), false);
-        self.show(&out_of_the_loop);
+        // What is shown is a controller at rest; what begins to run knows no motion yet.
+        let mut at_rest = controller;
+        let shown = at_rest.tick(&self.sensed(), Demand::Rest);
+        self.show(&shown);
         self.controller = Some(controller);
         self.ticks = Ticks::default();
         self.tick = -1;
@@ -163,8 +179,13 @@ impl Model for TestbedController {
             .controller
             .ok_or_else(|| Refusal::new("a step before initialization"))?;
         let sensed = self.sensed();
+        let demand = match (self.engage, self.hold) {
+            (false, _) => Demand::Rest,
+            (true, false) => Demand::Run,
+            (true, true) => Demand::Hold,
+        };
         for k in self.ticks.within(&step, self.T) {
-            let done = controller.tick(&sensed, self.engage);
+            let done = controller.tick(&sensed, demand);
             if !done.is_finite() {
                 return Err(overflow(k, self.q, self.tau_h));
             }
@@ -177,6 +198,39 @@ impl Model for TestbedController {
 }
 
 impl TestbedController {
+    fn controller(&self) -> Result<Controller, Refusal> {
+        let reach = Reach {
+            v_max: Vector1::new(self.v_max),
+            a_max: Vector1::new(self.a_max),
+        };
+        let speed = or_none(self.dq_n_max);
+        let bounds = if self.q_n_box {
+            Bounds {
+                speed,
+                q_min: self.q_n_min,
+                q_max: self.q_n_max,
+            }
+        } else {
+            Bounds {
+                speed,
+                ..Bounds::default()
+            }
+        };
+        let limits = Limits {
+            reach,
+            bounds,
+            f_rate: or_none(self.tau_rate_max),
+        };
+        Controller::new(
+            self.settings()?,
+            self.gains(),
+            self.form()?,
+            self.comparator(),
+            limits,
+        )
+        .map_err(refusal)
+    }
+
     fn settings(&self) -> Result<Settings, Refusal> {
         Ok(Settings {
             law: Law::try_from(self.law).map_err(|_| unknown_law(self.law))?,
@@ -189,8 +243,7 @@ impl TestbedController {
             },
             dq_cutoff: self.dq_cutoff,
             E_0: self.energy.E_0,
-            v_max: self.v_max,
-            a_max: self.a_max,
+            tuning_time: self.tuning_time,
         })
     }
 
@@ -248,17 +301,27 @@ impl TestbedController {
     }
 
     fn show(&mut self, done: &Done) {
-        let Done { H, G, tank, .. } = *done;
+        let Done {
+            H,
+            G,
+            tank,
+            share,
+            debt,
+            ..
+        } = *done;
         (self.tau_a, self.tau_demand) = (done.tau_a, done.tau_demand);
         (self.q_n, self.dq_n, self.e_nr) = (done.q_n, done.dq_n, done.e_nr);
         (self.q_d, self.dq_d, self.dq) = (done.q_d, done.dq_d, done.dq);
         self.saturated = done.saturated;
+        self.held = done.held;
         self.outside_bounds = done.outside_bounds;
         self.engaged = done.engaged;
         self.energy = Energy {
             H,
             G,
             tank,
+            share,
+            debt,
             ..self.energy
         };
     }
@@ -276,6 +339,10 @@ fn refusal(error: ParameterError) -> Refusal {
             let name = match name {
                 "f_max" => "tau_max",
                 "E_0" => "energy.E_0",
+                "speed_max" => "dq_n_max",
+                "q_min" => "q_n_min",
+                "q_max" => "q_n_max",
+                "f_rate" => "tau_rate_max",
                 other => other,
             };
             ParameterError::OutOfRange {
@@ -294,6 +361,11 @@ fn refusal(error: ParameterError) -> Refusal {
 fn unknown_law(number: i32) -> Refusal {
     let laws = Law::ALL.map(|law| format!("{} ({})", law.number(), law.name()));
     Refusal(format!("law = {number}: expected {}", laws.join(", ")))
+}
+
+/// A limit of the interface, where 0 stands for none.
+fn or_none(limit: f64) -> f64 {
+    if limit == 0.0 { f64::INFINITY } else { limit }
 }
 
 #[cold]

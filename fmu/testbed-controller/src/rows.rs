@@ -154,11 +154,11 @@ impl Declare for TestbedController {
             real!(v_max, unit::METRE_PER_SECOND)
                 .parameter(Fixed)
                 .at_least(SMALLEST)
-                .about("Largest speed of the robot for which the passivity argument is made"),
+                .about("Largest speed of the robot: the energy budget covers every motion within it"),
             real!(a_max, unit::METRE_PER_SECOND_SQUARED)
                 .parameter(Fixed)
                 .at_least(SMALLEST)
-                .about("Largest acceleration of the robot for which the passivity argument is made"),
+                .about("Largest acceleration of the robot: the energy budget covers every motion within it"),
             real!(dq_cutoff, unit::HERTZ)
                 .parameter(Fixed)
                 .at_least(0.0)
@@ -189,6 +189,39 @@ impl Declare for TestbedController {
                 .parameter(Fixed)
                 .at_least(0.0)
                 .about("Time constant of the sliding surface, for the law sliding_mode only"),
+            boolean!(hold).input(Discrete).about(
+                "Whether the nominal stays where it is: the coupling then carries any load within tau_max without drift",
+            ),
+            boolean!(held)
+                .output(Discrete)
+                .about("Whether hold, dq_n_max or the position box kept the nominal back at this tick"),
+            real!(energy.share, unit::NONE).output(Discrete).about(
+                "Share of the force that the energy budget left at this tick; 1 unless something is wrong",
+            ),
+            boolean!(energy.debt).output(Discrete).about(
+                "Whether the tank is below 0: a motion beyond v_max and a_max cost more than it held; no force until it is repaid",
+            ),
+            real!(tuning_time, unit::SECOND)
+                .parameter(Fixed)
+                .at_least(0.0)
+                .about("Time in which changed gains come into force, on a straight line; 0 = at once"),
+            real!(dq_n_max, unit::METRE_PER_SECOND)
+                .parameter(Fixed)
+                .at_least(0.0)
+                .about("Largest speed of the nominal; 0 = no limit"),
+            boolean!(q_n_box)
+                .parameter(Fixed)
+                .about("Whether the nominal keeps within q_n_min and q_n_max"),
+            real!(q_n_min, unit::METRE)
+                .parameter(Fixed)
+                .about("Least position of the nominal"),
+            real!(q_n_max, unit::METRE)
+                .parameter(Fixed)
+                .about("Largest position of the nominal"),
+            real!(tau_rate_max, unit::NEWTON_PER_SECOND)
+                .parameter(Fixed)
+                .at_least(0.0)
+                .about("Largest rate of change of tau_a while the controller is in the loop; 0 = no limit"),
         ],
     };
 }

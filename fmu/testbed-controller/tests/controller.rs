@@ -141,7 +141,7 @@ fn odd_step_sizes_run_the_same_ticks_as_one_step_a_tick() {
 
 #[test]
 fn the_force_obeys_tau_max_and_says_so() {
-    let mut controller = initialized(|c| c.tau_h = 6.0);
+    let mut controller = initialized(|c| (c.tau_h, c.tuning_time) = (6.0, 0.0));
     (0..5000).for_each(|k| tick(&mut controller, k));
     assert_eq!((controller.tau_a, controller.saturated), (12.5, true));
     assert!(controller.tau_demand > 12.5);

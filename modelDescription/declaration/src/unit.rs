@@ -59,6 +59,8 @@ pub const RADIAN: Unit = Unit {
 };
 /// radian per second
 pub const RADIAN_PER_SECOND: Unit = unit("rad/s", 0, 0, -1, 1);
+/// radian per second squared
+pub const RADIAN_PER_SECOND_SQUARED: Unit = unit("rad/s2", 0, 0, -2, 1);
 /// metre per radian
 pub const METRE_PER_RADIAN: Unit = unit("m/rad", 0, 1, 0, -1);
 /// kilogram
@@ -69,8 +71,12 @@ pub const KILOGRAM_SQUARE_METRE: Unit = unit("kg.m2", 1, 2, 0, 0);
 pub const NEWTON: Unit = unit("N", 1, 1, -2, 0);
 /// newton metre
 pub const NEWTON_METRE: Unit = unit("N.m", 1, 2, -2, 0);
+/// newton metre per second
+pub const NEWTON_METRE_PER_SECOND: Unit = unit("N.m/s", 1, 2, -3, 0);
 /// newton metre second per radian
 pub const NEWTON_METRE_SECOND_PER_RADIAN: Unit = unit("N.m.s/rad", 1, 2, -1, -1);
+/// newton per second
+pub const NEWTON_PER_SECOND: Unit = unit("N/s", 1, 1, -3, 0);
 /// newton per metre
 pub const NEWTON_PER_METRE: Unit = unit("N/m", 1, 0, -2, 0);
 /// newton second per metre

@@ -43,13 +43,10 @@ fn refusals_name_the_variable_the_value_and_the_range() {
             |c| c.energy.E_0 = -1.0,
             format!("energy.E_0 = -1: {not_negative}"),
         ),
+        (|c| c.dq_max[1] = 0.0, format!("dq_max[2] = 0: {positive}")),
         (
-            |c| c.v_max = 0.0,
-            "v_max = 0: expected a value greater than 0".into(),
-        ),
-        (
-            |c| c.a_max = f64::NAN,
-            "a_max = NaN: expected a value greater than 0".into(),
+            |c| c.ddq_max[0] = f64::NAN,
+            "ddq_max[1] = NaN: expected a value greater than 0".into(),
         ),
         (
             |c| c.Lambda_n[1] = 0.0,
@@ -161,7 +158,14 @@ fn a_result_that_is_not_finite_fails_the_step() {
         |c| (c.q[1], c.engage) = (f64::INFINITY, false),
     ];
     for (i, change) in cases.into_iter().enumerate() {
-        let mut c = initialized(change);
+        // Gains before the start, the position after it: a start that is not finite is refused (see below).
+        let mut c = initialized(|c| {
+            change(c);
+            c.q = ArmController::default().q;
+        });
+        let at_rest = c.tau_a;
+        let changed = controller(change);
+        (c.q, c.engage) = (changed.q, changed.engage);
         let step = Step {
             start_time: 0.0,
             t: 0.0,
@@ -175,6 +179,11 @@ fn a_result_that_is_not_finite_fails_the_step() {
                 && failure.0.contains("rad and f_h = ["),
             "case {i}: {failure}"
         );
-        assert_eq!(c.tau_a, [0.0; 3], "case {i}");
+        assert_eq!((c.tau_a, at_rest), ([0.0; 3], [0.0; 3]), "case {i}");
     }
+    let refusal = refused(|c| c.q[0] = f64::NAN);
+    assert!(
+        refusal.starts_with("the start: the law's result is not finite with q = [NaN"),
+        "{refusal}"
+    );
 }

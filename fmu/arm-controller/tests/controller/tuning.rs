@@ -5,7 +5,9 @@ use export::{Log, Model};
 
 /// Pushed down onto something that does not give way, until the spring is at its bound.
 fn pushed() -> ArmController {
-    let mut controller = initialized(|c| (c.f_h, c.f_max) = ([0.0, 0.0, -10.0], [200.0; 3]));
+    let mut controller = initialized(|c| {
+        (c.f_h, c.f_max, c.tuning_time) = ([0.0, 0.0, -10.0], [200.0; 3], 0.0);
+    });
     (0..5000).for_each(|k| tick(&mut controller, k));
     controller
 }

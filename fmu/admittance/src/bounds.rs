@@ -1,0 +1,98 @@
+//! Limits inside the law: the nominal keeps to them, and the robot with it.
+//!
+//! Each is an interval for the nominal's velocity v_m over the sample that contains 0: at its ends the nominal runs into
+//! an inelastic stop. Where the stop acts, its force R does the work R v_m T ≤ 0, so that limits only ever dissipate,
+//! whatever switches them on and off. What is clipped behind a law knows nothing of the kind.
+//!
+//! | limit | interval of v_m |
+//! |---|---|
+//! | speed | ±v |
+//! | position box | (q_min − q_n)/T … (q_max − q_n)/T, as far as it leads inwards |
+//! | hold | 0 |
+
+use crate::parameters::{LIMIT, NOT_NAN, check};
+use crate::{ParameterError, Real, real};
+
+/// Limits of one axis, infinite where there are none.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Bounds {
+    /// Largest speed of the nominal, m/s, > 0.
+    pub speed: Real,
+    /// Least position of the nominal, m. A nominal beyond it may only move inwards.
+    pub q_min: Real,
+    /// Largest position of the nominal, m, > q_min.
+    pub q_max: Real,
+}
+
+impl Default for Bounds {
+    /// None.
+    fn default() -> Self {
+        Self {
+            speed: Real::INFINITY,
+            q_min: Real::NEG_INFINITY,
+            q_max: Real::INFINITY,
+        }
+    }
+}
+
+impl Bounds {
+    /// Whether they can be kept; `axis` (from 1) is for the message.
+    ///
+    /// # Errors
+    /// The first value out of its range.
+    pub fn check(&self, axis: Option<usize>) -> Result<(), ParameterError> {
+        check(
+            axis,
+            &[
+                ("speed_max", self.speed, LIMIT),
+                ("q_min", self.q_min, NOT_NAN),
+                ("q_max", self.q_max, NOT_NAN),
+            ],
+        )?;
+        if self.q_min < self.q_max {
+            Ok(())
+        } else {
+            Err(ParameterError::OutOfRange {
+                name: "q_max",
+                axis,
+                value: self.q_max,
+                expected: "a value greater than q_min",
+            })
+        }
+    }
+
+    /// The interval for v_m (m/s) of a nominal at `q_n` (m), with sample period `T` (s).
+    pub fn interval(&self, q_n: Real, T: Real, hold: bool) -> Interval {
+        if hold {
+            return Interval {
+                low: 0.0,
+                high: 0.0,
+            };
+        }
+        Interval {
+            low: real::min(0.0, real::max((self.q_min - q_n) / T, -self.speed)),
+            high: real::max(0.0, real::min((self.q_max - q_n) / T, self.speed)),
+        }
+    }
+}
+
+/// Velocities that the nominal may have over a sample, m/s. They contain 0.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Interval {
+    low: Real,
+    high: Real,
+}
+
+impl Interval {
+    /// `v_m` (m/s) within; NaN stays NaN.
+    pub fn keep(&self, v_m: Real) -> Real {
+        if v_m > self.high {
+            self.high
+        } else if v_m < self.low {
+            self.low
+        } else {
+            v_m
+        }
+    }
+}

@@ -1,0 +1,151 @@
+//! The complete law of the arm: from what is sensed at a tick to the torques on the joints.
+//!
+//! It knows no FMI: the FMU ArmController and the C library are shells around it.
+
+use crate::kinematics::{Kinematics, Pose};
+use crate::limits::Limits;
+use crate::singularity::Singularity;
+use crate::task_space::{Outcome, TaskSpace};
+use admittance::{Bounds, Gains, Ledger, ParameterError, Reach, Real, Request, Settings};
+use nalgebra::Vector3;
+
+/// What stays fixed while the law is in use, but for the gains.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Parameters {
+    /// What all axes share.
+    pub settings: Settings,
+    /// Gains along x, y, z of the base frame.
+    pub gains: [Gains; 3],
+    /// Limits of the nominal along x, y, z.
+    pub bounds: [Bounds; 3],
+    /// How fast the joints can move: the motions for which passivity is promised, rad/s and rad/s².
+    pub reach: Reach<3>,
+    /// Where the handle is.
+    pub kinematics: Kinematics,
+    /// What the joints deliver.
+    pub limits: Limits,
+    /// Slowing before a singularity.
+    pub singularity: Singularity,
+    /// The frame in which the human's force is given.
+    pub frame: Frame,
+}
+
+/// A frame in which a force is given.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub enum Frame {
+    /// x forward, y to the left, z up.
+    Base,
+    /// Link 3's: x along the link, z up when the link is level; it turns with the link.
+    Link3,
+}
+
+/// What is sensed and asked for at a tick.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Inputs {
+    /// Joint angles, rad.
+    pub q: Vector3<Real>,
+    /// Force of the human on the handle, N, in the frame of [`Parameters::frame`].
+    pub f_h: Vector3<Real>,
+    /// Whether the law is to be in the loop.
+    pub engage: bool,
+    /// Whether the nominal is to stay where it is.
+    pub hold: bool,
+}
+
+/// What came of a tick.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Outputs {
+    /// Where the handle is.
+    pub pose: Pose,
+    /// What the law did.
+    pub outcome: Outcome,
+    /// Whether the nominal is slowed before a singularity.
+    pub slowed: bool,
+}
+
+/// A tick whose result is not finite: an input was not, or numbers overflow.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct NotFinite;
+
+/// The law between two ticks.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct ArmLaw {
+    kinematics: Kinematics,
+    singularity: Singularity,
+    frame: Frame,
+    task_space: TaskSpace,
+}
+
+impl ArmLaw {
+    /// A law out of the loop.
+    ///
+    /// # Errors
+    /// The first parameter out of its range, or a law that is not offered.
+    pub fn new(parameters: &Parameters) -> Result<Self, ParameterError> {
+        parameters.limits.check()?;
+        parameters.kinematics.check()?;
+        parameters.singularity.check()?;
+        Ok(Self {
+            kinematics: parameters.kinematics,
+            singularity: parameters.singularity,
+            frame: parameters.frame,
+            task_space: TaskSpace::new(
+                parameters.settings,
+                parameters.gains,
+                parameters.bounds,
+                parameters.reach,
+                parameters.limits,
+            )?,
+        })
+    }
+
+    /// Other gains: on a straight line over the tuning time, each step taken over so that the stored energy does not rise.
+    ///
+    /// # Errors
+    /// The first gain out of its range; the gains stay as they were.
+    pub fn tune(&mut self, gains: [Gains; 3]) -> Result<(), ParameterError> {
+        self.task_space.tune(gains)
+    }
+
+    /// One tick.
+    ///
+    /// # Errors
+    /// [`NotFinite`]; the law stays as it was before the tick.
+    pub fn tick(&mut self, inputs: &Inputs) -> Result<Outputs, NotFinite> {
+        let before = *self;
+        let pose = self.kinematics.at(&inputs.q);
+        let damping = self.singularity.damping(pose.sigma_min);
+        let outcome = if inputs.engage {
+            let f_h = match self.frame {
+                Frame::Base => inputs.f_h,
+                Frame::Link3 => pose.R * inputs.f_h,
+            };
+            let request = Request {
+                hold: inputs.hold,
+                damping: Vector3::repeat(damping),
+                ..Request::default()
+            };
+            self.task_space.step(&pose, &inputs.q, &f_h, &request)
+        } else {
+            self.task_space.rest(&pose, &inputs.q)
+        };
+        if outcome.is_finite() && self.ledger().G().is_finite() {
+            Ok(Outputs {
+                pose,
+                outcome,
+                slowed: inputs.engage && damping > 0.0,
+            })
+        } else {
+            *self = before;
+            Err(NotFinite)
+        }
+    }
+
+    /// Energy stored and created, as of the last tick; the work is that at the joints.
+    pub fn ledger(&self) -> &Ledger<3> {
+        self.task_space.ledger()
+    }
+}
