@@ -4,5 +4,6 @@
 mod drawing;
 mod parameters;
 mod stories;
+mod svg;
 mod table;
 mod walk;
