@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import least_squares
 
-from exo import theory
+from exo import forms, theory
 from exo.errors import ScenarioError, close_matches
 from exo.profile import SAME_INSTANT
 from exo.recording import Recording
@@ -277,6 +277,55 @@ def measured_response(
     return phasors[0] / phasors[1], omega
 
 
+RESPONSES = theory.RESPONSES | {"servo": forms.servo_response}
+
+
+def comparator_of(run: Recording, *, k_h: float = 0.0) -> forms.Comparator:
+    """The loop of a comparator, as the FMUs held it; components are `controller` and `plant`."""
+    natural = run.parameter("controller.law") == 5
+    return forms.Comparator(
+        law="natural" if natural else "sliding_mode",
+        M_n=run.parameter("controller.comparator.M" if natural else "controller.M_n"),
+        H=run.parameter("controller.comparator.H"),
+        **{name: run.parameter(f"controller.{name}") for name in ("D_n", "K", "K_P", "T")},
+        **{name: run.parameter(f"plant.{name}") for name in ("M", "b", "substep")},
+        k_h=k_h,
+    )
+
+
+@metric
+def comparator_response_error(run: Recording, *, profile: str, after: float) -> float:
+    """|H/H₀ − 1| of the measured dq/τ_h and the exact sampled loop of a comparator, at the profile's one sine."""
+    measured, omega = measured_response(
+        run, force="controller.tau_h", velocity="plant.dq", profile=profile, after=after
+    )
+    return abs(measured / forms.comparator_response(loop=comparator_of(run), omega=omega) - 1.0)
+
+
+@metric
+def model_error(run: Recording, *, profile: str, after: float) -> float:
+    """|H (M_d iω + D_n) − 1|: how far the fundamental of the robot's motion is from the desired model's, which is
+    1/(M_d s + D_n), with the robot's mass as M_d under `natural`."""
+    measured, omega = measured_response(
+        run, force="controller.tau_h", velocity="plant.dq", profile=profile, after=after
+    )
+    natural = run.parameter("controller.law") == 5
+    mass = run.parameter("controller.comparator.M" if natural else "controller.M_n")
+    return abs(measured * (mass * 1j * omega + run.parameter("controller.D_n")) - 1.0)
+
+
+@metric
+def testbed_hand_growth_error(run: Recording, *, column: str, after: float, before: float) -> float:
+    """Distance of the measured σ (1/s) from the closed form, for a hand of stiffness k_h on the frictionless testbed:
+    laws of the paper's kind and comparators. Components are `controller`, `plant` and `operator`."""
+    k_h = run.parameter("operator.k_h")
+    if run.parameter("controller.law") in (5, 6):
+        expected = forms.comparator_growth_rate(loop=comparator_of(run, k_h=k_h))
+    else:
+        expected = theory.hand_growth_rate(loop=loop_of(run, controller="controller", plant="plant"), k_h=k_h)
+    return abs(growth_rate(run, column=column, after=after, before=before) - expected)
+
+
 def loop_of(run: Recording, *, controller: str, plant: str) -> theory.Loop:
     """The loop's parameters, as the FMUs held them."""
     names = {name: f"{controller}.{name}" for name in ("M_n", "D_n", "K", "K_P", "alpha", "T")}
@@ -290,14 +339,15 @@ def response_error(
 ) -> float:
     """Distance of the measured dq/τ_h from a closed form at the frequency of the profile's one sine.
 
-    `theory_of`: `sampled` or `continuous`. `part`: `relative` |H/H₀ − 1|, `magnitude` ||H/H₀| − 1|, `phase` |arg H/H₀|
-    (rad). The steady state is fitted over t ≥ after, by when the slow mode, about exp(−t D_n/M_n), must have died out.
+    `theory_of`: `sampled`, `continuous` or `servo`. `part`: `relative` |H/H₀ − 1|, `magnitude` ||H/H₀| − 1|, `phase`
+    |arg H/H₀| (rad). The steady state is fitted over t ≥ after, by when the slow mode, about exp(−t D_n/M_n), must have
+    died out.
     """
     measured, omega = measured_response(
         run, force=f"{controller}.tau_h", velocity=f"{plant}.dq", profile=profile, after=after
     )
     loop = loop_of(run, controller=controller, plant=plant)
-    quotient = measured / theory.RESPONSES[theory_of](loop=loop, omega=omega)
+    quotient = measured / RESPONSES[theory_of](loop=loop, omega=omega)
     return {
         "relative": abs(quotient - 1.0),
         "magnitude": abs(abs(quotient) - 1.0),
