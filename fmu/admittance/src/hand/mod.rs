@@ -10,7 +10,8 @@
 //! 2. Each half swing of q is measured: how long, how strong, and how far f_h is in it the force of a spring, ρ and k_h
 //!    of [`HalfSwing`].
 //! 3. A half swing *grows* if it is spring-like and in the band, and f_h is stronger in it than in the one a period
-//!    before by the factor `growth`. Four in a row, the last of them above `f_min`, are detected as a stiff hand.
+//!    before by the factor `growth`. Four in a row, the last of them above `f_min`, are detected as a stiff hand; two
+//!    while damping is still being given back.
 //! 4. The damping D goes up to `D_max` within `attack`. When no spring-like half swing above `f_min` has come for `quiet`,
 //!    it goes back to 0 within `release`.
 //!
@@ -52,6 +53,8 @@ use crate::real::{max, min};
 /// Half swings in a row that have to grow. An operator's own motion of constant amplitude grows while it sets in, for two
 /// half swings and, behind the band pass, a third.
 const HALF_SWINGS: u32 = 4;
+/// The same while the damping is being given back: the hand that it came for is likely to be there still.
+const HALF_SWINGS_AGAIN: u32 = 2;
 
 /// The detector of one axis between two ticks. Its default has seen nothing yet.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -112,7 +115,12 @@ impl Detector {
         } else {
             0
         };
-        let detected = self.detected || (strong && grown >= HALF_SWINGS);
+        let needed = if self.D > 0.0 {
+            HALF_SWINGS_AGAIN
+        } else {
+            HALF_SWINGS
+        };
+        let detected = self.detected || (strong && grown >= needed);
         Self {
             strength: if half.ended_late {
                 [0.0; 2]
