@@ -1,6 +1,7 @@
 //! The variables and what a step does.
 
 use admittance::advice::{Advice, advise};
+use admittance::hand::StiffHand;
 use admittance::{Bounds, Gains, Law, ParameterError, Reach, Settings};
 use arm_law::ArmLaw;
 use arm_law::arm_law::{Frame, Inputs, Outputs, Parameters};
@@ -63,6 +64,9 @@ pub struct ArmController {
     pub p_n_max: [f64; 3],
     pub tau_rate_max: [f64; 3],
 
+    pub stiff_hand: StiffHand,
+    pub stiff_hand_seen: StiffHandSeen,
+
     ticks: Ticks,
     arm_law: Option<ArmLaw>,
 }
@@ -77,6 +81,15 @@ pub struct Energy {
     pub E_0: f64,
     pub share: f64,
     pub debt: bool,
+}
+
+/// The outputs `stiff_hand.*`.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[expect(missing_docs, reason = "a variable is described once, in its row")]
+pub struct StiffHandSeen {
+    pub detected: bool,
+    pub D: [f64; 3],
+    pub k_h: [f64; 3],
 }
 
 /// The variables `ft.*`.
@@ -150,6 +163,8 @@ impl Default for ArmController {
             p_n_min: [-1.0; 3],
             p_n_max: [1.0; 3],
             tau_rate_max: [0.0; 3],
+            stiff_hand: StiffHand::default(),
+            stiff_hand_seen: StiffHandSeen::default(),
             ticks: Ticks::default(),
             arm_law: None,
         }
@@ -221,6 +236,7 @@ impl ArmController {
             kinematics: self.kinematics,
             limits,
             singularity: self.singularity,
+            stiff_hand: self.stiff_hand,
             frame: match self.ft.frame {
                 1 => Frame::Base,
                 2 => Frame::Link3,
@@ -344,6 +360,7 @@ impl ArmController {
             pose,
             outcome,
             slowed,
+            stiff_hand,
         } = outputs;
         self.p = pose.p.into();
         self.sigma_min = pose.sigma_min;
@@ -359,6 +376,11 @@ impl ArmController {
         self.outside_bounds = outcome.outside_bounds;
         self.engaged = outcome.engaged;
         self.slowed = *slowed;
+        self.stiff_hand_seen = StiffHandSeen {
+            detected: stiff_hand.detected(),
+            D: stiff_hand.D().into(),
+            k_h: stiff_hand.k_h().into(),
+        };
         let ledger = arm_law.ledger();
         self.energy = Energy {
             H: ledger.H(),

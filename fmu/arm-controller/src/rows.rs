@@ -270,6 +270,42 @@ impl Declare for ArmController {
                 .parameter(Fixed)
                 .at_least(0.0)
                 .about("Largest rate of change of tau_a while the controller is in the loop; 0 = no limit"),
+            boolean!(stiff_hand.active).parameter(Fixed).about(
+                "Whether a hand too stiff for the gains is looked for and answered with damping",
+            ),
+            real!(stiff_hand.D_max, unit::NEWTON_SECOND_PER_METRE).parameter(Fixed).at_least(SMALLEST).about(
+                "Damping on top of D_n while a stiff hand is detected",
+            ),
+            real!(stiff_hand.f_low, unit::HERTZ).parameter(Fixed).at_least(SMALLEST).about(
+                "Lower edge of the band in which a stiff hand is looked for, above the motions that the operator means",
+            ),
+            real!(stiff_hand.f_high, unit::HERTZ).parameter(Fixed).at_least(SMALLEST).about(
+                "Upper edge of that band, above stiff_hand.f_low and at most 1/(8*T)",
+            ),
+            real!(stiff_hand.f_min, unit::NEWTON).parameter(Fixed).at_least(SMALLEST).about(
+                "Amplitude of f_h in the band from which on a swing counts",
+            ),
+            real!(stiff_hand.growth, unit::NONE).parameter(Fixed).at_least(1.0).about(
+                "Factor, greater than 1, by which f_h has to grow from one period of a swing to the next",
+            ),
+            real!(stiff_hand.attack, unit::SECOND).parameter(Fixed).at_least(SMALLEST).about(
+                "Time in which the damping rises to stiff_hand.D_max",
+            ),
+            real!(stiff_hand.quiet, unit::SECOND).parameter(Fixed).at_least(SMALLEST).about(
+                "Time without a swing after which the damping is given back",
+            ),
+            real!(stiff_hand.release, unit::SECOND).parameter(Fixed).at_least(SMALLEST).about(
+                "Time in which it is given back",
+            ),
+            boolean!("stiff_hand.detected" => stiff_hand_seen.detected).output(Discrete).about(
+                "Whether on any axis a stiff hand has made a swing grow and has not been quiet since",
+            ),
+            real!("stiff_hand.D[i]" => stiff_hand_seen.D[3], unit::NEWTON_SECOND_PER_METRE)
+                .output(Discrete)
+                .about("Damping on top of D_n for a stiff hand; base frame"),
+            real!("stiff_hand.k_h[i]" => stiff_hand_seen.k_h[3], unit::NEWTON_PER_METRE).output(Discrete).about(
+                "Stiffness of the hand in the last swing that counted, 0 before the first; base frame",
+            ),
         ],
     };
 }

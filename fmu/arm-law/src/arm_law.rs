@@ -5,7 +5,9 @@
 use crate::kinematics::{Kinematics, Pose};
 use crate::limits::Limits;
 use crate::singularity::Singularity;
+use crate::stiff_hand::Detectors;
 use crate::task_space::{Outcome, TaskSpace};
+use admittance::hand::StiffHand;
 use admittance::{Bounds, Gains, Ledger, ParameterError, Reach, Real, Request, Settings};
 use nalgebra::Vector3;
 
@@ -27,6 +29,8 @@ pub struct Parameters {
     pub limits: Limits,
     /// Slowing before a singularity.
     pub singularity: Singularity,
+    /// Damping for a hand too stiff for the gains.
+    pub stiff_hand: StiffHand,
     /// The frame in which the human's force is given.
     pub frame: Frame,
 }
@@ -63,6 +67,8 @@ pub struct Outputs {
     pub outcome: Outcome,
     /// Whether the nominal is slowed before a singularity.
     pub slowed: bool,
+    /// What is known of a stiff hand, after this tick.
+    pub stiff_hand: Detectors,
 }
 
 /// A tick whose result is not finite: an input was not, or numbers overflow.
@@ -75,6 +81,7 @@ pub struct NotFinite;
 pub struct ArmLaw {
     kinematics: Kinematics,
     singularity: Singularity,
+    stiff_hand: Detectors,
     frame: Frame,
     task_space: TaskSpace,
 }
@@ -91,6 +98,7 @@ impl ArmLaw {
         Ok(Self {
             kinematics: parameters.kinematics,
             singularity: parameters.singularity,
+            stiff_hand: Detectors::new(parameters.stiff_hand, parameters.settings.T)?,
             frame: parameters.frame,
             task_space: TaskSpace::new(
                 parameters.settings,
@@ -123,13 +131,15 @@ impl ArmLaw {
                 Frame::Base => inputs.f_h,
                 Frame::Link3 => pose.R * inputs.f_h,
             };
+            self.stiff_hand = self.stiff_hand.sensed(&pose.p, &f_h);
             let request = Request {
                 hold: inputs.hold,
-                damping: Vector3::repeat(damping),
+                damping: Vector3::repeat(damping) + self.stiff_hand.D(),
                 ..Request::default()
             };
             self.task_space.step(&pose, &inputs.q, &f_h, &request)
         } else {
+            self.stiff_hand = self.stiff_hand.at_rest();
             self.task_space.rest(&pose, &inputs.q)
         };
         if outcome.is_finite() && self.ledger().G().is_finite() {
@@ -137,6 +147,7 @@ impl ArmLaw {
                 pose,
                 outcome,
                 slowed: inputs.engage && damping > 0.0,
+                stiff_hand: self.stiff_hand,
             })
         } else {
             *self = before;

@@ -8,6 +8,7 @@
 //! | [`limits`] | what the joints deliver of a torque: one common factor, or each joint clipped |
 //! | [`nominal`] | the nominal arm: M_n(q), C_n(q, dq), transport of the nominal velocity |
 //! | [`singularity`] | the damping that slows before a singularity |
+//! | [`stiff_hand`] | the damping that ends the swing at a hand too stiff for the gains |
 //! | [`supervision`] | when the law may act: states, faults, their diagnostics |
 //! | [`task_space`] | a tick: the law at the handle, its torques and its ledger at the joints |
 //! | [`wrench`] | the hand's force from a six-axis force sensor: tare, tool weight, lever arm, faults, filter, deadband |
@@ -29,6 +30,7 @@ pub mod kinematics;
 pub mod limits;
 pub mod nominal;
 pub mod singularity;
+pub mod stiff_hand;
 pub mod supervision;
 pub mod task_space;
 pub mod wrench;

@@ -131,11 +131,15 @@ def growth_rate(run: Recording, *, column: str, after: float, before: float) -> 
 
 
 @metric
-def hand_growth_error(run: Recording, *, column: str, after: float, before: float, Lambda: float) -> float:
+def hand_growth_error(
+    run: Recording, *, column: str, after: float, before: float, Lambda: float, damping: float = 0.0
+) -> float:
     """Distance of the measured σ (1/s) from the closed form for a hand of stiffness k_h on an arm without friction, of
-    mass `Lambda` (kg) along x. Components are `controller`, `plant` and `operator`."""
+    mass `Lambda` (kg) along x, with `damping` (N·s/m) on top of D_n. Components are `controller`, `plant` and
+    `operator`."""
     names = {"M_n": "Lambda_n[1]", "D_n": "D_n[1]", "K": "K[1]", "K_P": "K_P[1]", "alpha": "alpha", "T": "T"}
     gains = {name: run.parameter(f"controller.{key}") for name, key in names.items()}
+    gains["D_n"] += damping
     loop = theory.Loop(M=Lambda, substep=run.parameter("plant.substep"), **gains)
     expected = theory.hand_growth_rate(loop=loop, k_h=run.parameter("operator.k_h"))
     return abs(growth_rate(run, column=column, after=after, before=before) - expected)

@@ -10,6 +10,7 @@ mod robot;
 mod rows;
 mod singularity;
 mod start;
+mod stiff_hand;
 mod ticks;
 mod tuning;
 
