@@ -36,6 +36,7 @@
 //!
 //! | module | what |
 //! |---|---|
+//! | [`force_sensor`] | the variables `ft.*` |
 //! | [`model`] | the variables, start, step, refusals |
 //! | [`rows`] | one row per variable: name, unit, bounds, description |
 
@@ -45,6 +46,7 @@
     reason = "fields are spelt like the paper's symbols and the interface: Lambda_n, K_P, J, T"
 )]
 
+pub mod force_sensor;
 pub mod model;
 pub mod rows;
 

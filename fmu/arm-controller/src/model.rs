@@ -1,10 +1,11 @@
 //! The variables and what a step does.
 
+use crate::force_sensor::ForceSensor;
 use admittance::advice::{Advice, advise};
 use admittance::hand::StiffHand;
 use admittance::{Bounds, Gains, Law, ParameterError, Reach, Settings};
 use arm_law::ArmLaw;
-use arm_law::arm_law::{Frame, Inputs, Outputs, Parameters};
+use arm_law::arm_law::{Inputs, Outputs, Parameters};
 use arm_law::kinematics::Kinematics;
 use arm_law::limits::{Limits, TorqueLimiting};
 use arm_law::singularity::Singularity;
@@ -92,13 +93,6 @@ pub struct StiffHandSeen {
     pub k_h: [f64; 3],
 }
 
-/// The variables `ft.*`.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[expect(missing_docs, reason = "a variable is described once, in its row")]
-pub struct ForceSensor {
-    pub frame: i32,
-}
-
 impl Default for ArmController {
     fn default() -> Self {
         let Settings {
@@ -151,7 +145,7 @@ impl Default for ArmController {
             ddq_max: [3e3; 3],
             dp_cutoff: dq_cutoff,
             kinematics: Kinematics::default(),
-            ft: ForceSensor { frame: 1 },
+            ft: ForceSensor::default(),
             singularity: Singularity::default(),
             M_min: 14.0,
             gain_warning: 0,
@@ -185,6 +179,7 @@ impl Model for ArmController {
             })
             .map_err(|_| self.overflow("the start"))?;
         self.show(&shown, &at_rest);
+        self.ft.clear();
         self.arm_law = Some(arm_law);
         self.ticks = Ticks::default();
         self.tick = -1;
@@ -237,15 +232,8 @@ impl ArmController {
             limits,
             singularity: self.singularity,
             stiff_hand: self.stiff_hand,
-            frame: match self.ft.frame {
-                1 => Frame::Base,
-                2 => Frame::Link3,
-                other => {
-                    return Err(Refusal(format!(
-                        "ft.frame = {other}: expected 1 (base), 2 (sensor)"
-                    )));
-                }
-            },
+            frame: self.ft.sensed_in()?,
+            sensor: self.ft.sensor()?,
         })
     }
 
@@ -268,7 +256,9 @@ impl ArmController {
     fn inputs(&self) -> Inputs {
         Inputs {
             q: self.q.into(),
-            f_h: self.f_h.into(),
+            hand: self.ft.reading(self.f_h),
+            ft_valid: true,
+            tare: self.ft.tare,
             engage: self.engage,
             hold: self.hold,
         }
@@ -361,6 +351,7 @@ impl ArmController {
             outcome,
             slowed,
             stiff_hand,
+            ft,
         } = outputs;
         self.p = pose.p.into();
         self.sigma_min = pose.sigma_min;
@@ -381,6 +372,7 @@ impl ArmController {
             D: stiff_hand.D().into(),
             k_h: stiff_hand.k_h().into(),
         };
+        self.ft.show(ft, &arm_law.bias());
         let ledger = arm_law.ledger();
         self.energy = Energy {
             H: ledger.H(),

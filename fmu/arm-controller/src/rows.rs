@@ -81,6 +81,87 @@ pub const FRAME: Enumeration = Enumeration {
     ],
 };
 
+/// The type of `ft.source`.
+pub const SOURCE: Enumeration = Enumeration {
+    name: "Source",
+    about: "Where the force of the human is read",
+    items: &[
+        item(1, "f_h", "the input f_h, a force in the frame ft.frame"),
+        item(
+            2,
+            "wrench",
+            "the inputs ft.force and ft.torque, in the frame of a six-axis sensor that ft.mount turns",
+        ),
+    ],
+};
+
+/// The type of `ft.fault`.
+pub const FAULT: Enumeration = Enumeration {
+    name: "SensorFault",
+    about: "What is wrong with the force sensor; the law then sees no force",
+    items: &[
+        item(0, "none", "nothing"),
+        item(1, "not_finite", "a component is NaN or infinite"),
+        item(
+            2,
+            "over_range",
+            "a component has reached the end of its range",
+        ),
+        item(
+            3,
+            "rate",
+            "a component has changed faster than a hand can push",
+        ),
+        item(4, "stuck", "the reading no longer changes"),
+        item(
+            5,
+            "dropout",
+            "the reading is exactly 0, or the sensor says that it is invalid",
+        ),
+    ],
+};
+
+/// The type of `ft.tare_state`.
+pub const TARE_STATE: Enumeration = Enumeration {
+    name: "TareState",
+    about: "How far the last tare has come",
+    items: &[
+        item(0, "off", "none was asked for"),
+        item(
+            1,
+            "running",
+            "samples are being taken; the law sees no force",
+        ),
+        item(2, "done", "ft.bias is that of the last tare"),
+        item(
+            3,
+            "failed",
+            "ft.bias is what it was before; ft.tare_failure says why",
+        ),
+    ],
+};
+
+/// The type of `ft.tare_failure`.
+pub const TARE_FAILURE: Enumeration = Enumeration {
+    name: "TareFailure",
+    about: "Why the last tare failed",
+    items: &[
+        item(0, "none", "it did not"),
+        item(1, "fault", "the sensor had a fault"),
+        item(2, "moved", "a joint moved by more than ft.tare_motion"),
+        item(
+            3,
+            "unsteady",
+            "the reading scattered by more than ft.tare_spread_force or ft.tare_spread_torque",
+        ),
+        item(
+            4,
+            "too_large",
+            "the bias would exceed ft.tare_max_force or ft.tare_max_torque: somebody leans on the handle",
+        ),
+    ],
+};
+
 /// Smallest accepted sample period, gain, mass or limit, in SI units: what lies below is a mistake in a unit. The law
 /// itself asks for values greater than 0.
 const SMALLEST: f64 = 1e-6;
@@ -95,9 +176,10 @@ impl Declare for ArmController {
             real!(q[3], unit::RADIAN).input(Discrete).about(
                 "Sensed joint angles: yaw about z, shoulder pitch and elbow pitch about -y, so that positive pitch lifts",
             ),
-            real!(f_h[3], unit::NEWTON)
-                .input(Discrete)
-                .about("Sensed force of the human on the handle, in the frame that ft.frame says"),
+            real!(f_h[3], unit::NEWTON).input(Discrete).may_be_nan().about(
+                "Sensed force of the human on the handle, in the frame that ft.frame says, under ft.source 1. It may be NaN, \
+                 which ft.fault names",
+            ),
             boolean!(engage).input(Discrete).about(
                 "Whether the controller is in the loop. It engages at the first tick at which this is true, with p_n = p and \
                  dp_n = 0; while it is false tau_a is 0",
@@ -306,6 +388,109 @@ impl Declare for ArmController {
             real!("stiff_hand.k_h[i]" => stiff_hand_seen.k_h[3], unit::NEWTON_PER_METRE).output(Discrete).about(
                 "Stiffness of the hand in the last swing that counted, 0 before the first; base frame",
             ),
+            real!("ft.force[i]" => ft.force[3], unit::NEWTON).input(Discrete).may_be_nan().about(
+                "Raw force that acts on the sensor's tool, in the sensor's frame, under ft.source 2. It may be NaN, which \
+                 ft.fault names",
+            ),
+            real!("ft.torque[i]" => ft.torque[3], unit::NEWTON_METRE).input(Discrete).may_be_nan().about(
+                "Raw moment that acts on the sensor's tool about the sensor's origin, in the sensor's frame, under ft.source 2. \
+                 It may be NaN, which ft.fault names",
+            ),
+            boolean!(ft.tare).input(Discrete).about(
+                "Request for a tare: its change to true starts one, with nobody touching the handle and the arm at rest",
+            ),
+            real!("ft.f_h[i]" => ft.f_h[3], unit::NEWTON).output(Discrete).about(
+                "Force of the human on the handle as the law uses it, 0 during a fault or a tare; base frame",
+            ),
+            real!("ft.moment[i]" => ft.moment[3], unit::NEWTON_METRE).output(Discrete).about(
+                "Moment of the human about the handle under ft.source 2, for information: the law moves a point; base frame",
+            ),
+            enumeration!(ft.fault, &FAULT).output(Discrete).about("What is wrong with the force sensor"),
+            enumeration!(ft.tare_state, &TARE_STATE).output(Discrete).about("How far the last tare has come"),
+            enumeration!(ft.tare_failure, &TARE_FAILURE).output(Discrete).about("Why the last tare failed"),
+            real!("ft.bias_force[i]" => ft.bias_force[3], unit::NEWTON)
+                .output(Discrete)
+                .about("Force that the sensor shows when nothing acts on it, from the last tare that was done; sensor frame"),
+            real!("ft.bias_torque[i]" => ft.bias_torque[3], unit::NEWTON_METRE)
+                .output(Discrete)
+                .about("Moment that the sensor shows when nothing acts on it, from the last tare that was done; sensor frame"),
+            enumeration!(ft.source, &SOURCE).parameter(Fixed).about("Where the force of the human is read"),
+            real!("ft.mount[i]" => ft.mount[3], unit::RADIAN).parameter(Fixed).about(
+                "Orientation of the sensor in link 3's frame under ft.source 2: roll, pitch, yaw, turns about link 3's fixed axes \
+                 x, then y, then z",
+            ),
+            real!("ft.handle[i]" => ft.handle[3], unit::METRE)
+                .parameter(Fixed)
+                .about("Lever arm: the handle from the sensor's origin; sensor frame"),
+            real!(ft.mass, unit::KILOGRAM)
+                .parameter(Fixed)
+                .at_least(0.0)
+                .about("Mass of the tool behind the sensor, whose weight is taken off; 0 = none"),
+            real!("ft.cog[i]" => ft.cog[3], unit::METRE)
+                .parameter(Fixed)
+                .about("Centre of gravity of the tool from the sensor's origin; sensor frame"),
+            real!("ft.gravity[i]" => ft.gravity[3], unit::METRE_PER_SECOND_SQUARED)
+                .parameter(Fixed)
+                .about("Acceleration of gravity; base frame"),
+            real!(ft.deadband, unit::NEWTON)
+                .parameter(Fixed)
+                .at_least(0.0)
+                .about("Length by which every force is shortened, and below which it is 0; 0 = off"),
+            real!(ft.cutoff, unit::HERTZ)
+                .parameter(Fixed)
+                .at_least(0.0)
+                .about("Corner frequency of a first-order low pass on the force; it costs phase; 0 = off"),
+            real!(ft.range_force, unit::NEWTON)
+                .parameter(Fixed)
+                .at_least(0.0)
+                .about("Absolute value at which a force component is over range; 0 = off"),
+            real!(ft.range_torque, unit::NEWTON_METRE)
+                .parameter(Fixed)
+                .at_least(0.0)
+                .about("Absolute value at which a moment component is over range; 0 = off"),
+            real!(ft.rate_force, unit::NEWTON_PER_SECOND)
+                .parameter(Fixed)
+                .at_least(0.0)
+                .about("Rate at which a force component is a fault; 0 = off"),
+            real!(ft.rate_torque, unit::NEWTON_METRE_PER_SECOND)
+                .parameter(Fixed)
+                .at_least(0.0)
+                .about("Rate at which a moment component is a fault; 0 = off"),
+            integer!(ft.stuck_samples).parameter(Fixed).within_integers(0, i32::MAX).about(
+                "Repetitions of a reading, bit for bit, after which the sensor is stuck; 0 = off. For sensors with noise that \
+                 are read at every tick",
+            ),
+            integer!(ft.dropout_samples).parameter(Fixed).within_integers(0, i32::MAX).about(
+                "Readings of exactly 0 on all axes after which the sensor has dropped out; 0 = off. For sensors with noise",
+            ),
+            real!(ft.recovery_time, unit::SECOND)
+                .parameter(Fixed)
+                .at_least(0.0)
+                .about("Time for which the signal must be sound before a fault is over"),
+            real!(ft.tare_time, unit::SECOND)
+                .parameter(Fixed)
+                .at_least(SMALLEST)
+                .about("Time for which a tare takes samples"),
+            real!(ft.tare_motion, unit::RADIAN)
+                .parameter(Fixed)
+                .at_least(0.0)
+                .about("Motion of a joint beyond which a tare fails"),
+            real!(ft.tare_spread_force, unit::NEWTON)
+                .parameter(Fixed)
+                .at_least(0.0)
+                .about("Standard deviation of a force component beyond which a tare fails; 0 = any"),
+            real!(ft.tare_spread_torque, unit::NEWTON_METRE)
+                .parameter(Fixed)
+                .at_least(0.0)
+                .about("Standard deviation of a moment component beyond which a tare fails; 0 = any"),
+            real!(ft.tare_max_force, unit::NEWTON)
+                .parameter(Fixed)
+                .at_least(0.0)
+                .about("Force component of the bias beyond which a tare fails: somebody leans on the handle; 0 = any"),
+            real!(ft.tare_max_torque, unit::NEWTON_METRE)
+                .parameter(Fixed)
+                .at_least(0.0)
+                .about("Moment component of the bias beyond which a tare fails: somebody leans on the handle; 0 = any"),
         ],
     };
 }

@@ -7,6 +7,7 @@ use crate::limits::Limits;
 use crate::singularity::Singularity;
 use crate::stiff_hand::Detectors;
 use crate::task_space::{Outcome, TaskSpace};
+use crate::wrench::{Conditioned, Conditioner, Frame, Sample, Sensor, Wrench};
 use admittance::hand::StiffHand;
 use admittance::{Bounds, Gains, Ledger, ParameterError, Reach, Real, Request, Settings};
 use nalgebra::Vector3;
@@ -31,18 +32,10 @@ pub struct Parameters {
     pub singularity: Singularity,
     /// Damping for a hand too stiff for the gains.
     pub stiff_hand: StiffHand,
-    /// The frame in which the human's force is given.
+    /// The frame of the hand's force sensor.
     pub frame: Frame,
-}
-
-/// A frame in which a force is given.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub enum Frame {
-    /// x forward, y to the left, z up.
-    Base,
-    /// Link 3's: x along the link, z up when the link is level; it turns with the link.
-    Link3,
+    /// What is made of its reading.
+    pub sensor: Sensor,
 }
 
 /// What is sensed and asked for at a tick.
@@ -50,8 +43,12 @@ pub enum Frame {
 pub struct Inputs {
     /// Joint angles, rad.
     pub q: Vector3<Real>,
-    /// Force of the human on the handle, N, in the frame of [`Parameters::frame`].
-    pub f_h: Vector3<Real>,
+    /// What the hand's force sensor reads: about its origin, in [`Parameters::frame`]. No moment if it has none.
+    pub hand: Wrench,
+    /// The sensor's own word: false = invalid.
+    pub ft_valid: bool,
+    /// Whether a tare of the sensor is requested; its change to true starts one.
+    pub tare: bool,
     /// Whether the law is to be in the loop.
     pub engage: bool,
     /// Whether the nominal is to stay where it is.
@@ -69,6 +66,8 @@ pub struct Outputs {
     pub slowed: bool,
     /// What is known of a stiff hand, after this tick.
     pub stiff_hand: Detectors,
+    /// What the law knows of the hand: about the handle, in the base frame.
+    pub ft: Conditioned,
 }
 
 /// A tick whose result is not finite: an input was not, or numbers overflow.
@@ -83,6 +82,7 @@ pub struct ArmLaw {
     singularity: Singularity,
     stiff_hand: Detectors,
     frame: Frame,
+    conditioner: Conditioner,
     task_space: TaskSpace,
 }
 
@@ -95,11 +95,13 @@ impl ArmLaw {
         parameters.limits.check()?;
         parameters.kinematics.check()?;
         parameters.singularity.check()?;
+        parameters.frame.check()?;
         Ok(Self {
             kinematics: parameters.kinematics,
             singularity: parameters.singularity,
             stiff_hand: Detectors::new(parameters.stiff_hand, parameters.settings.T)?,
             frame: parameters.frame,
+            conditioner: Conditioner::new(parameters.sensor, parameters.settings.T)?,
             task_space: TaskSpace::new(
                 parameters.settings,
                 parameters.gains,
@@ -126,18 +128,16 @@ impl ArmLaw {
         let before = *self;
         let pose = self.kinematics.at(&inputs.q);
         let damping = self.singularity.damping(pose.sigma_min);
+        let ft = self.sensed(&pose, inputs);
         let outcome = if inputs.engage {
-            let f_h = match self.frame {
-                Frame::Base => inputs.f_h,
-                Frame::Link3 => pose.R * inputs.f_h,
-            };
-            self.stiff_hand = self.stiff_hand.sensed(&pose.p, &f_h);
+            self.stiff_hand = self.stiff_hand.sensed(&pose.p, &ft.hand.force);
             let request = Request {
                 hold: inputs.hold,
                 damping: Vector3::repeat(damping) + self.stiff_hand.D(),
                 ..Request::default()
             };
-            self.task_space.step(&pose, &inputs.q, &f_h, &request)
+            self.task_space
+                .step(&pose, &inputs.q, &ft.hand.force, &request)
         } else {
             self.stiff_hand = self.stiff_hand.at_rest();
             self.task_space.rest(&pose, &inputs.q)
@@ -148,11 +148,36 @@ impl ArmLaw {
                 outcome,
                 slowed: inputs.engage && damping > 0.0,
                 stiff_hand: self.stiff_hand,
+                ft,
             })
         } else {
             *self = before;
             Err(NotFinite)
         }
+    }
+
+    /// What the hand does, in the base frame.
+    fn sensed(&mut self, pose: &Pose, inputs: &Inputs) -> Conditioned {
+        let turn = self.frame.at(pose);
+        let ft = self.conditioner.step(&Sample {
+            wrench: inputs.hand,
+            R: turn.R(),
+            q: inputs.q,
+            valid: inputs.ft_valid,
+            tare: inputs.tare,
+        });
+        Conditioned {
+            hand: Wrench {
+                force: turn.to_base(&ft.hand.force),
+                torque: turn.to_base(&ft.hand.torque),
+            },
+            ..ft
+        }
+    }
+
+    /// What the hand's force sensor reads when nothing acts on it, as far as a tare has found it; sensor frame.
+    pub fn bias(&self) -> Wrench {
+        self.conditioner.bias()
     }
 
     /// Energy stored and created, as of the last tick; the work is that at the joints.

@@ -4,6 +4,12 @@ use abi::refusal::refused;
 use abi::{Fmu, Kind, Phase, Status};
 use std::ptr::null;
 
+/// Inputs into which a broken sensor's NaN may pass: the controller names it.
+fn may_be_nan(fmu: &Fmu, variable: &abi::Variable) -> bool {
+    let sensed = ["f_h[", "ft.force[", "ft.torque["];
+    fmu.name == "ArmController" && sensed.iter().any(|name| variable.name.starts_with(name))
+}
+
 #[test]
 fn nan_and_infinity_are_refused_by_every_real_and_name_it() {
     for fmu in Fmu::all() {
@@ -18,6 +24,10 @@ fn nan_and_infinity_are_refused_by_every_real_and_name_it() {
                 (f64::INFINITY, "inf"),
                 (-f64::INFINITY, "-inf"),
             ] {
+                if may_be_nan(&fmu, v) {
+                    assert_eq!(instance.set_real(&[v.reference], &[value]), Status::OK);
+                    continue;
+                }
                 let part = format!("{} = {text}", v.name);
                 refused(&instance, "fmi2SetReal", &[&part, "finite"], |i| {
                     i.set_real(&[v.reference], &[value])
@@ -36,6 +46,9 @@ fn inputs_are_checked_during_the_run_too() {
             .iter()
             .filter(|v| v.causality == "input" && v.kind == (Kind::Real {}))
         {
+            if may_be_nan(&fmu, v) {
+                continue;
+            }
             refused(&instance, "fmi2SetReal", &[&v.name, "NaN"], |i| {
                 i.set_real(&[v.reference], &[f64::NAN])
             });

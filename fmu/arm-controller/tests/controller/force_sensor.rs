@@ -41,3 +41,91 @@ fn the_frame_turns_with_the_link() {
     assert!(controller.f_a[2] > 0.1);
     assert!(controller.f_a[0].abs() < 1e-15 && controller.f_a[1] == 0.0); // rounding of π/2
 }
+
+#[test]
+fn a_broken_sensor_is_named_and_the_law_goes_on_without_force() {
+    let mut broken = initialized(|_| ());
+    let mut untouched = initialized(|_| ());
+    for k in 0..200 {
+        let bad = k == 50;
+        broken.f_h = [if bad { f64::NAN } else { 0.0 }, 0.0, 0.0];
+        tick(&mut broken, k);
+        tick(&mut untouched, k);
+        // 0.1 s of recovery, counted from the first sound sample.
+        let expected = i32::from((50..150).contains(&k));
+        assert_eq!(broken.ft.fault, expected, "tick {k}");
+        assert_eq!(broken.tau_a, untouched.tau_a, "tick {k}");
+    }
+}
+
+#[test]
+fn a_tare_takes_the_bias_off_and_keeps_the_arm_where_it_is() {
+    let mut controller = initialized(|c| c.f_h = [0.0, 1.0, 0.0]);
+    for k in 0..2000 {
+        controller.ft.tare = k == 0;
+        tick(&mut controller, k);
+        let running = k < 499;
+        assert_eq!(controller.ft.tare_state, if running { 1 } else { 2 });
+        assert_eq!(controller.ft.f_h, [0.0; 3]);
+        assert_eq!(
+            controller.ft.bias_force,
+            [0.0, if running { 0.0 } else { 1.0 }, 0.0]
+        );
+    }
+    assert_eq!(controller.p_n, controller.p);
+
+    let mut untared = initialized(|c| c.f_h = [0.0, 1.0, 0.0]);
+    (0..2000).for_each(|k| tick(&mut untared, k));
+    // The robot does not move here: the nominal leans on the coupling, by f_h/(alpha K_P) = 50 mm in the end.
+    assert!(untared.e_nr[1] > 0.02);
+}
+
+#[test]
+fn a_tare_that_fails_says_why() {
+    let mut controller = initialized(|c| {
+        c.f_h = [0.0, 0.0, 25.0];
+        c.ft.tare = true;
+    });
+    (0..500).for_each(|k| tick(&mut controller, k));
+    assert_eq!(
+        (controller.ft.tare_state, controller.ft.tare_failure),
+        (3, 4)
+    );
+    assert_eq!(controller.ft.bias_force, [0.0; 3]);
+}
+
+#[test]
+fn a_six_axis_sensor_is_turned_unloaded_and_moved_to_the_handle() {
+    let (mount, handle) = ([0.4, -0.7, 1.9], Vector3::new(0.02, -0.03, 0.11));
+    let (mass, cog) = (0.7, Vector3::new(0.01, 0.02, 0.06));
+    let mut controller = initialized(|c| {
+        c.ft.source = 2;
+        (c.ft.mount, c.ft.handle) = (mount, handle.into());
+        (c.ft.mass, c.ft.cog) = (mass, cog.into());
+        c.f_h = [100.0; 3]; // not looked at
+    });
+    for k in 0..100 {
+        let (q, _) = world(k);
+        let R = link_3(q) * Rotation3::from_euler_angles(mount[0], mount[1], mount[2]);
+        let (force, moment) = (Vector3::new(5.0, -3.0, 2.0), Vector3::new(0.3, 0.1, -0.2));
+        let weight = Vector3::new(0.0, 0.0, -9.81) * mass;
+        let torque = moment + (R * handle).cross(&force) + (R * cog).cross(&weight);
+        controller.q = q;
+        controller.ft.force = R.inverse_transform_vector(&(force + weight)).into();
+        controller.ft.torque = R.inverse_transform_vector(&torque).into();
+        tick(&mut controller, k);
+        // Rounding of 10 N through a dozen operations.
+        assert!((Vector3::from(controller.ft.f_h) - force).amax() < 1e-14);
+        assert!((Vector3::from(controller.ft.moment) - moment).amax() < 1e-14);
+    }
+}
+
+#[test]
+fn before_the_first_tick_nothing_was_sensed() {
+    let controller = initialized(|c| {
+        c.f_h = [f64::NAN; 3];
+        c.ft.tare = true;
+    });
+    assert_eq!((controller.ft.fault, controller.ft.tare_state), (0, 0));
+    assert_eq!(controller.ft.f_h, [0.0; 3]);
+}

@@ -2,7 +2,8 @@
 
 use crate::ArmController;
 use admittance::Law;
-use arm_controller::rows::{FRAME, LAW, TORQUE_LIMITING};
+use arm_controller::rows::{FAULT, FRAME, LAW, SOURCE, TARE_FAILURE, TARE_STATE, TORQUE_LIMITING};
+use arm_law::wrench::{Fault, TareFailure, TareState};
 use declaration::{Access, Causality, Declare, Variability};
 use std::collections::HashSet;
 
@@ -112,4 +113,12 @@ fn enumerations_have_the_numbers_and_names_that_the_model_knows() {
     assert_eq!(items(LAW), Law::ALL.map(|law| (law.number(), law.name())));
     assert_eq!(items(TORQUE_LIMITING), [(1, "scale"), (2, "clip")]);
     assert_eq!(items(FRAME), [(1, "base"), (2, "sensor")]);
+    assert_eq!(items(SOURCE), [(1, "f_h"), (2, "wrench")]);
+    let faults = Fault::ALL.map(|fault| (fault.number(), fault.name()));
+    assert_eq!(items(FAULT)[1..], faults);
+    assert_eq!(items(FAULT)[0], (0, "none"));
+    let unsteady = TareFailure::Unsteady;
+    let state = TareState::Failed(unsteady);
+    assert!(items(TARE_STATE).contains(&(state.number(), "failed")));
+    assert!(items(TARE_FAILURE).contains(&(unsteady.number(), "unsteady")));
 }

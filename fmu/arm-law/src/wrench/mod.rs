@@ -12,6 +12,8 @@
 //! | 5 | first-order low pass | [`filter`] |
 //! | 6 | deadband without a jump | [`deadband`] |
 //!
+//! The result is in the sensor's frame; [`frame`] and [`mount`] say how that turns with the arm.
+//!
 //! ```
 //! use arm_law::wrench::{Conditioner, Sample, Sensor, Tool, Wrench};
 //! use nalgebra::{Matrix3, Vector3};
@@ -50,6 +52,7 @@
 pub mod conditioner;
 pub mod deadband;
 pub mod filter;
+pub mod frame;
 pub mod mount;
 pub mod tare;
 pub mod tool;
@@ -57,6 +60,7 @@ pub mod transport;
 pub mod validity;
 
 pub use conditioner::{Conditioned, Conditioner, Sample, Sensor};
+pub use frame::Frame;
 pub use mount::Mount;
 pub use tare::{TareFailure, TareState};
 pub use tool::Tool;
