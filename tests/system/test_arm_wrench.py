@@ -1,6 +1,6 @@
 """The six-axis input of ArmController.fmu: frames and lever arm against Pinocchio, and what a tare leaves.
 
-The sensor's readings come from Pinocchio's spatial forces on its own model of the arm; the FMU gets nothing but numbers.
+The sensor's readings come from Pinocchio's spatial forces on its own model of the arm; the FMU gets numbers only.
 """
 
 from collections.abc import Iterator
@@ -123,7 +123,7 @@ def test_the_wrench_at_the_handle_is_pinocchio_s(archive: Archive) -> None:
                 assert np.abs(got["ft.moment"] - moment).max() < 1e-13
 
 
-def test_an_identified_and_tared_sensor_leaves_less_than_50_mN_in_20_poses(archive: Archive) -> None:
+def test_an_identified_and_tared_sensor_leaves_less_than_50_millinewtons_in_20_poses(archive: Archive) -> None:
     random = np.random.default_rng(22)
     sensor = Sensor(random=random)
 

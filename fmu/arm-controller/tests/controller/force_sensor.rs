@@ -1,7 +1,7 @@
 //! The frame of the force sensor.
 
 use crate::axes::world;
-use crate::{initialized, tick};
+use crate::{T, initialized, tick};
 use nalgebra::{Rotation3, Vector3};
 
 /// Link 3's frame, by rotations about the joints' axes.
@@ -76,8 +76,12 @@ fn a_tare_takes_the_bias_off_and_keeps_the_arm_where_it_is() {
 
     let mut untared = initialized(|c| c.f_h = [0.0, 1.0, 0.0]);
     (0..2000).for_each(|k| tick(&mut untared, k));
-    // The robot does not move here: the nominal leans on the coupling, by f_h/(alpha K_P) = 50 mm in the end.
-    assert!(untared.e_nr[1] > 0.02);
+    // The robot does not move here: the nominal leans on the coupling until joint 1 delivers no more, tau_max at p_x.
+    let (tau_max, lever) = (untared.tau_max[0], untared.p[0]);
+    let leans = tau_max / lever / (untared.K[1] * untared.K_P[1]);
+    // The nominal slips at no more than f_h/D_n, which is 0.05 mm a tick.
+    assert!((untared.e_nr[1] - leans).abs() < T * 1.0 / 20.0);
+    assert!(leans > 0.017);
 }
 
 #[test]
