@@ -10,7 +10,6 @@
 //! | [`singularity`] | the damping that slows before a singularity |
 //! | [`stiff_hand`] | the damping that ends the swing at a hand too stiff for the gains |
 //! | [`supervision`] | when the law may act: states, faults, their diagnostics |
-//! | [`task_space`] | a tick: the law at the handle, its torques and its ledger at the joints |
 //! | [`wrench`] | the hand's force from a six-axis force sensor: tare, tool weight, lever arm, faults, filter, deadband |
 //! | [`task_space`] | the law at the handle, its torques and its ledger at the joints |
 //!
