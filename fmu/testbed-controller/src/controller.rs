@@ -36,6 +36,34 @@ pub struct Limits {
     pub f_rate: f64,
 }
 
+impl Limits {
+    /// Comparators and the servo form do not keep limits: none may be set.
+    fn check_none(&self) -> Result<(), ParameterError> {
+        let Bounds {
+            speed,
+            q_min,
+            q_max,
+        } = self.bounds;
+        for (name, value) in [
+            ("dq_n_max", speed),
+            ("q_n_min", -q_min),
+            ("q_n_max", q_max),
+            ("tau_rate_max", self.f_rate),
+        ] {
+            if value != f64::INFINITY {
+                let value = if name == "q_n_min" { -value } else { value };
+                return Err(ParameterError::OutOfRange {
+                    name,
+                    axis: None,
+                    value,
+                    expected: "no limit, which the laws 1 to 4 in torque form alone keep",
+                });
+            }
+        }
+        Ok(())
+    }
+}
+
 /// What is asked of the controller at a tick.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Demand {
@@ -49,10 +77,6 @@ pub enum Demand {
 
 /// The controller between two ticks.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[expect(
-    clippy::large_enum_variant,
-    reason = "one instance a model, copied within a tick; no allocation in the step"
-)]
 pub enum Controller {
     /// One of the four laws, torque form.
     Law(Admittance<1>),
@@ -119,6 +143,9 @@ impl Controller {
         comparator: Comparator,
         limits: Limits,
     ) -> Result<Self, ParameterError> {
+        if settings.law.is_comparator() || form == Form::PositionServo {
+            limits.check_none()?;
+        }
         Ok(match (settings.law, form) {
             (Law::Passive | Law::Natural | Law::SlidingMode, Form::PositionServo) => {
                 return Err(ParameterError::NoServoForm(settings.law));

@@ -190,7 +190,8 @@ impl Declare for TestbedController {
                 .at_least(0.0)
                 .about("Time constant of the sliding surface, for the law sliding_mode only"),
             boolean!(hold).input(Discrete).about(
-                "Whether the nominal stays where it is: the coupling then carries any load within tau_max without drift",
+                "Whether the nominal stays where it is: the coupling then carries any load within tau_max without drift; the laws 1 to \
+                 4 in torque form only",
             ),
             boolean!(held)
                 .output(Discrete)

@@ -169,7 +169,7 @@ fn tuning_does_not_raise_the_stored_energy() {
 #[test]
 fn refusals_name_the_variable_the_value_and_the_range() {
     type Change = fn(&mut TestbedController);
-    let cases: [(Change, &str); 15] = [
+    let cases: [(Change, &str); 19] = [
         (
             |c| c.law = 9,
             "law = 9: expected 1 (standard), 2 (passive), 3 (passive_applied), 4 (passive_bounded), 5 (natural), 6 (sliding_mode)",
@@ -197,6 +197,22 @@ fn refusals_name_the_variable_the_value_and_the_range() {
         (
             |c| (c.law, c.form) = (2, 2),
             "law = 2 (passive) has no servo form: expected 1 (standard), 3 (passive_applied), 4 (passive_bounded)",
+        ),
+        (
+            |c| (c.law, c.dq_n_max) = (5, 0.5),
+            "dq_n_max = 0.5: expected no limit, which the laws 1 to 4 in torque form alone keep",
+        ),
+        (
+            |c| (c.form, c.tau_rate_max) = (2, 50.0),
+            "tau_rate_max = 50: expected no limit, which the laws 1 to 4 in torque form alone keep",
+        ),
+        (
+            |c| (c.law, c.q_n_box) = (6, true),
+            "q_n_min = -1: expected no limit, which the laws 1 to 4 in torque form alone keep",
+        ),
+        (
+            |c| (c.dq_n_max, c.tau_rate_max) = (0.5, -1.0),
+            "tau_rate_max = -1: expected a value greater than 0",
         ),
         (
             |c| (c.law, c.form) = (5, 2),
@@ -377,4 +393,39 @@ fn gain_warning_follows_the_gains_at_start_and_at_each_change() {
     controller.tune(&mut Log::silent()).expect("valid gains");
     assert_eq!(controller.gain_warning, 0);
     assert_eq!(initialized(|c| c.M_min = 60.0).gain_warning, 2);
+}
+
+#[test]
+fn limits_keep_the_nominal_and_say_so() {
+    // Pushed freely with 6 N: the nominal would reach 12 m/s.
+    let run = |change: fn(&mut TestbedController)| {
+        let mut controller = initialized(|c| {
+            c.tau_h = 6.0;
+            c.tau_max = 1e3;
+            change(c);
+        });
+        let (mut dq, mut largest_step, mut before) = (0.0, 0.0_f64, 0.0);
+        for k in 0..2000 {
+            tick(&mut controller, k);
+            largest_step = largest_step.max((controller.tau_a - before).abs());
+            before = controller.tau_a;
+            dq += (controller.tau_a + 6.0) / 6.0 * 0.002;
+            controller.q += 0.002 * dq;
+        }
+        (controller, largest_step)
+    };
+    let (free, free_step) = run(|_| {});
+    assert!(free.dq_n > 1.0 && !free.held && free.energy.share == 1.0);
+    let (slow, _) = run(|c| c.dq_n_max = 0.25);
+    assert!(slow.dq_n == 0.25 && slow.held);
+    let (boxed, _) = run(|c| (c.q_n_box, c.q_n_max) = (true, 0.1));
+    assert!((boxed.q_n - 0.1).abs() < 1e-15 && boxed.held);
+    let (rated, rated_step) = run(|c| c.tau_rate_max = 2.0);
+    assert!(!rated.held && rated_step <= 2.0 * 0.002 * (1.0 + 1e-9)); // differences of some N
+    assert!(free_step > 2.0 * rated_step);
+    let (held, _) = run(|c| c.hold = true);
+    assert!(held.q_n == 0.0 && held.held);
+    for controller in [free, slow, boxed, rated, held] {
+        assert!(controller.energy.tank >= 0.0 && !controller.energy.debt);
+    }
 }
