@@ -181,6 +181,10 @@ impl<const N: usize> Stored for Sensed<N> {
         self.0.iter().map(|axis| axis.spring(settings)).sum()
     }
 
+    fn masses(&self, settings: &Settings) -> Real {
+        self.0.iter().map(|axis| axis.mass(settings)).sum()
+    }
+
     fn reduced(&self, keep: Keep) -> Self {
         Self(self.0.map(|axis| axis.reduced(keep.e, keep.v_n)))
     }

@@ -130,6 +130,11 @@ impl Sensed {
         storage::spring(settings.law, &self.axis.gains, self.e)
     }
 
+    /// The nominal mass's part of it, J. Not finite for alpha = 0.
+    pub fn mass(&self, settings: &Settings) -> Real {
+        storage::mass(&self.axis.gains, settings.alpha, self.axis.v_n)
+    }
+
     /// With the position error and the nominal's velocity reduced to these shares, in [0, 1]: energy given up.
     #[must_use]
     pub fn reduced(self, e: Real, v_n: Real) -> Self {

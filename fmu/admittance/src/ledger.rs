@@ -40,7 +40,12 @@ pub struct Ledger<const N: usize> {
     commanded: SVector<Real, N>,
     acting: SVector<Real, N>,
     supplied: Real,
+    /// how far rounding may have carried the tank below zero since it was last above
+    rounding: Real,
 }
+
+/// What rounding may take from the tank in a sample, relative to the terms of ΔG.
+const A_SAMPLE: Real = 64.0 * Real::EPSILON;
 
 /// What is kept of the stored energy, as shares of e and of v_n in [0, 1].
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -51,17 +56,14 @@ pub struct Keep {
     pub v_n: Real,
 }
 
-impl Keep {
-    /// Everything.
-    pub const ALL: Self = Self { e: 1.0, v_n: 1.0 };
-}
-
 /// A law at a tick, once the position is known: what it stores and can give up.
 pub trait Stored: Sized {
     /// Energy stored, J. Not finite for alpha = 0.
     fn stored(&self, settings: &Settings) -> Real;
     /// The springs' part of it, J.
     fn spring(&self, settings: &Settings) -> Real;
+    /// The nominal masses' part of it, J; not as a difference, which would round like the whole.
+    fn masses(&self, settings: &Settings) -> Real;
     /// With these shares of the position errors and of the nominal velocities kept.
     #[must_use]
     fn reduced(&self, keep: Keep) -> Self;
@@ -87,6 +89,7 @@ impl<const N: usize> Ledger<N> {
             commanded: SVector::zeros(),
             acting: SVector::zeros(),
             supplied: 0.0,
+            rounding: 0.0,
         }
     }
 
@@ -95,35 +98,33 @@ impl<const N: usize> Ledger<N> {
     #[must_use]
     pub fn settle<S: Stored>(self, law: S, settings: &Settings, q: &SVector<Real, N>) -> (Self, S) {
         let H = law.stored(settings);
-        let keep = self.shares_to_keep(H, law.spring(settings), q);
-        if keep == Keep::ALL {
+        if !self.enforced || self.created(H, q) <= self.tank {
             return (self.settled(H, q), law);
         }
+        let keep = self.shares_to_keep(law.spring(settings), law.masses(settings), q);
         let reduced = law.reduced(keep);
         (self.settled(reduced.stored(settings), q), reduced)
     }
 
-    /// What must be given up at this tick, with the position `q` (m), the energy `H` (J) that the law stores and the
-    /// spring's part of it, for the tank to stay ≥ 0: first from the spring, then from the nominal masses.
-    fn shares_to_keep(&self, H: Real, spring: Real, q: &SVector<Real, N>) -> Keep {
-        let short = self.created(H, q) - self.tank;
-        if !self.enforced || short <= 0.0 {
-            return Keep::ALL;
-        }
-        let left = |energy: Real, short: Real| {
-            if energy > short {
-                real::sqrt(1.0 - short / energy)
-            } else {
+    /// What may be kept at this tick, with the position `q` (m), of the energy that the law stores in its springs and in its
+    /// nominal masses (J), for the tank to stay ≥ 0: what is given up is taken from the springs first.
+    ///
+    /// It is found without the springs' energy, which can be many times what is left of it: a difference of the two would
+    /// leave the larger one's rounding.
+    fn shares_to_keep(&self, spring: Real, masses: Real, q: &SVector<Real, N>) -> Keep {
+        let affordable = self.tank - self.created(0.0, q);
+        let share = |energy: Real, affordable: Real| {
+            if affordable <= 0.0 {
                 0.0
+            } else if affordable < energy {
+                real::sqrt(affordable / energy)
+            } else {
+                1.0
             }
         };
         Keep {
-            e: left(spring, short),
-            v_n: if short > spring {
-                left(H - spring, short - spring)
-            } else {
-                1.0
-            },
+            e: share(spring, affordable - masses),
+            v_n: share(masses, affordable),
         }
     }
 
@@ -144,10 +145,16 @@ impl<const N: usize> Ledger<N> {
         let created = self.created(H, q);
         // With a delay, a force has been said that acts only now: what may cover it is not poured away.
         let most = real::max(self.E_0, moved.reserved());
+        let tank = real::min(self.tank - created, most);
         Self {
             H,
             G: self.G + created,
-            tank: real::min(self.tank - created, most),
+            tank,
+            rounding: if tank < 0.0 {
+                real::max(self.rounding, A_SAMPLE * self.size(H, q))
+            } else {
+                0.0
+            },
             ..moved
         }
     }
@@ -190,9 +197,13 @@ impl<const N: usize> Ledger<N> {
             return 1.0;
         }
         let last = self.foretelling();
-        let n = if self.delayed { 2 } else { 1 };
-        let work = self.reach.most_work(f, last, n, self.T);
         let reserved = self.reserved();
+        let work = if self.delayed {
+            // Not less than 0: what a force takes from the robot in the next sample cannot pay for this one.
+            real::max(0.0, self.reach.most_work(f, last, 2, self.T))
+        } else {
+            self.reach.most_work(f, last, 1, self.T)
+        };
         budget::share(|s| reserved + s * work - taken(s), self.tank)
     }
 
@@ -214,6 +225,14 @@ impl<const N: usize> Ledger<N> {
     fn created(&self, H: Real, q: &SVector<Real, N>) -> Real {
         let work = self.q.map_or(0.0, |last| self.acting.dot(&(q - last)));
         H - self.H + work - self.supplied
+    }
+
+    /// The terms of ΔG at their sizes, J.
+    fn size(&self, H: Real, q: &SVector<Real, N>) -> Real {
+        let work = self
+            .q
+            .map_or(0.0, |last| self.acting.abs().dot(&(q - last).abs()));
+        real::abs(self.tank) + H + self.H + work + real::abs(self.supplied)
     }
 
     /// Whether there is an energy to speak of: alpha > 0.
@@ -245,6 +264,6 @@ impl<const N: usize> Ledger<N> {
     /// Whether the tank is enforced and below zero by more than rounding: a motion beyond the reach has cost more than it
     /// held.
     pub fn is_in_debt(&self) -> bool {
-        self.enforced && self.tank < -1e3 * Real::EPSILON * (self.E_0 + self.H)
+        self.enforced && self.tank < -self.rounding
     }
 }

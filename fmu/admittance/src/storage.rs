@@ -31,7 +31,12 @@ pub fn extension(law: Law, gains: &Gains, energy: Real) -> Real {
     }
 }
 
+/// The nominal mass's energy at velocity `v_n` (m/s), J: K ½ M_n v_n²/alpha. Not finite for alpha = 0.
+pub fn mass(gains: &Gains, alpha: Real, v_n: Real) -> Real {
+    gains.K * (0.5 * gains.M_n * v_n * v_n / alpha)
+}
+
 /// H, J, at position error `e` (m) and nominal velocity `v_n` (m/s). Not finite for alpha = 0.
 pub fn stored(law: Law, gains: &Gains, alpha: Real, e: Real, v_n: Real) -> Real {
-    gains.K * (0.5 * gains.M_n * v_n * v_n / alpha) + spring(law, gains, e)
+    mass(gains, alpha, v_n) + spring(law, gains, e)
 }
