@@ -1,0 +1,216 @@
+//! The laws under attack, as the adversary sees them: public inputs and outputs only.
+
+use crate::audit::Supply;
+use admittance::{Admittance, Bounds, Gains, ParameterError, Reach, Request, Settings};
+use arm_law::kinematics::Kinematics;
+use arm_law::limits::{Limits, TorqueLimiting};
+use arm_law::task_space::TaskSpace;
+use nalgebra::{SVector, Vector3};
+
+/// What is wanted of the law at a tick.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Order<const N: usize> {
+    /// Out of the loop.
+    Rest,
+    /// In the loop.
+    Run(Request<N>),
+}
+
+/// What the law shows at a tick.
+#[derive(Clone, Copy, Debug)]
+pub struct Seen<const N: usize> {
+    /// Force on the robot, in the coordinates of q, N (N·m).
+    pub tau: SVector<f64, N>,
+    /// Force that the nominal felt, along the law's axes, N.
+    pub felt: SVector<f64, N>,
+    /// Nominal position along the law's axes, m.
+    pub q_n: SVector<f64, N>,
+    /// Nominal velocity along the law's axes, m/s.
+    pub dq_n: SVector<f64, N>,
+    /// Position error along the law's axes, m.
+    pub e_nr: SVector<f64, N>,
+    /// Energy in the tank, J.
+    pub tank: f64,
+    /// Energy created, J.
+    pub G: f64,
+    /// Energy stored, J.
+    pub H: f64,
+    /// Share of the force that the budget left.
+    pub share: f64,
+    /// Whether the tank is in debt.
+    pub debt: bool,
+    /// Whether the last motion left the reach.
+    pub outside: bool,
+}
+
+/// What a subject is built of.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Setup<const N: usize> {
+    /// What all axes share.
+    pub settings: Settings,
+    /// Each axis's own.
+    pub gains: [Gains; N],
+    /// Limits of the nominal.
+    pub bounds: [Bounds; N],
+    /// How far the robot moves in a sample.
+    pub reach: Reach<N>,
+    /// Largest rate of the force, N/s (N·m/s).
+    pub rate: f64,
+    /// Largest torque of each joint, N·m; the arm only.
+    pub tau_max: f64,
+    /// Whether each joint is clipped by itself; the arm only.
+    pub clip: bool,
+}
+
+/// A law of N coordinates.
+pub trait Subject<const N: usize>: Clone {
+    /// Out of the loop.
+    ///
+    /// # Errors
+    /// The first parameter out of its range.
+    fn build(setup: &Setup<N>) -> Result<Self, ParameterError>;
+    /// Where the attack starts.
+    fn home() -> SVector<f64, N>;
+    /// One tick.
+    fn tick(&mut self, q: &SVector<f64, N>, f_h: &SVector<f64, N>, order: &Order<N>) -> Seen<N>;
+    /// Other gains.
+    ///
+    /// # Errors
+    /// The first gain out of its range.
+    fn tune(&mut self, gains: [Gains; N]) -> Result<(), ParameterError>;
+    /// Whether the outputs say what the nominal felt.
+    fn shows_what_is_felt(setup: &Setup<N>) -> bool {
+        let _ = setup;
+        true
+    }
+}
+
+impl<const N: usize> Subject<N> for Admittance<N> {
+    fn build(setup: &Setup<N>) -> Result<Self, ParameterError> {
+        let mut law = Admittance::new(setup.settings, setup.gains)?
+            .reaching(setup.reach)?
+            .rated(SVector::repeat(setup.rate))?;
+        law.bound(setup.bounds)?;
+        Ok(law)
+    }
+
+    fn home() -> SVector<f64, N> {
+        SVector::zeros()
+    }
+
+    fn tick(&mut self, q: &SVector<f64, N>, f_h: &SVector<f64, N>, order: &Order<N>) -> Seen<N> {
+        let tick = match order {
+            Order::Rest => self.rest(q),
+            Order::Run(request) => Admittance::tick(self, q, f_h, request),
+        };
+        let ledger = self.ledger();
+        Seen {
+            tau: tick.f,
+            felt: tick.f,
+            q_n: tick.q_n,
+            dq_n: tick.dq_n,
+            e_nr: tick.e_nr,
+            tank: ledger.tank(),
+            G: ledger.G(),
+            H: ledger.H(),
+            share: tick.share,
+            debt: ledger.is_in_debt(),
+            outside: tick.outside_bounds,
+        }
+    }
+
+    fn tune(&mut self, gains: [Gains; N]) -> Result<(), ParameterError> {
+        Admittance::tune(self, gains)
+    }
+}
+
+/// The law at the arm's handle, with its ledger at the joints.
+#[derive(Clone, Copy, Debug)]
+pub struct Arm {
+    kinematics: Kinematics,
+    law: TaskSpace,
+}
+
+impl Subject<3> for Arm {
+    fn build(setup: &Setup<3>) -> Result<Self, ParameterError> {
+        let limits = Limits {
+            tau_max: Vector3::repeat(setup.tau_max),
+            tau_rate: Vector3::repeat(setup.rate),
+            limiting: if setup.clip {
+                TorqueLimiting::Clip
+            } else {
+                TorqueLimiting::Scale
+            },
+        };
+        limits.check()?;
+        let law = TaskSpace::new(
+            setup.settings,
+            setup.gains,
+            setup.bounds,
+            setup.reach,
+            limits,
+        )?;
+        Ok(Self {
+            kinematics: Kinematics::default(),
+            law,
+        })
+    }
+
+    /// SPEC.md section 4: the arm's start pose.
+    fn home() -> Vector3<f64> {
+        Vector3::new(0.0, -1.480_96, 1.701_38)
+    }
+
+    fn tick(&mut self, q: &Vector3<f64>, f_h: &Vector3<f64>, order: &Order<3>) -> Seen<3> {
+        let pose = self.kinematics.at(q);
+        let done = match order {
+            Order::Rest => self.law.rest(&pose, q),
+            Order::Run(request) => self.law.step(&pose, q, f_h, request),
+        };
+        let ledger = self.law.ledger();
+        Seen {
+            tau: done.tau,
+            felt: done.f_a,
+            q_n: done.p_n,
+            dq_n: done.dp_n,
+            e_nr: done.e_nr,
+            tank: ledger.tank(),
+            G: ledger.G(),
+            H: ledger.H(),
+            share: done.share,
+            debt: ledger.is_in_debt(),
+            outside: done.outside_bounds,
+        }
+    }
+
+    fn tune(&mut self, gains: [Gains; 3]) -> Result<(), ParameterError> {
+        self.law.tune(gains)
+    }
+
+    /// Joints that are clipped one by one turn the force: no output says what the nominal felt.
+    fn shows_what_is_felt(setup: &Setup<3>) -> bool {
+        !setup.clip
+    }
+}
+
+/// What the human's port brought in a sample, from what was seen at its beginning.
+pub fn supply<const N: usize>(
+    setup: &Setup<N>,
+    gains: &[Gains; N],
+    f_h: &SVector<f64, N>,
+    order: &Order<N>,
+    seen: &Seen<N>,
+) -> Supply {
+    let Order::Run(request) = order else {
+        return Supply::default();
+    };
+    (0..N).fold(Supply::default(), |sum, i| {
+        sum.and(Supply::of_axis(
+            &setup.settings,
+            &gains[i],
+            &setup.bounds[i],
+            [request.hold.into(), request.damping[i]],
+            [f_h[i], seen.felt[i], seen.q_n[i], seen.dq_n[i]],
+        ))
+    })
+}
