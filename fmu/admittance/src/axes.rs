@@ -26,6 +26,8 @@ pub struct Request<const N: usize> {
     pub hold: bool,
     /// Damping on top of D_n, N·s/m, ≥ 0.
     pub damping: SVector<Real, N>,
+    /// Speed that the nominal must not exceed, beside its bounds, m/s, ≥ 0; infinite for no limit.
+    pub speed: SVector<Real, N>,
 }
 
 impl<const N: usize> Default for Request<N> {
@@ -35,6 +37,7 @@ impl<const N: usize> Default for Request<N> {
             authority: 1.0,
             hold: false,
             damping: SVector::zeros(),
+            speed: SVector::repeat(Real::INFINITY),
         }
     }
 }
@@ -198,12 +201,16 @@ impl<const N: usize> Sensed<N> {
         request: &Request<N>,
         settings: &Settings,
     ) -> Proposal<N> {
-        Proposal(
-            self.0
-                .zip_zip_map(f_h, &request.damping, |axis, f_h, damping| {
-                    axis.propose(f_h, request.hold, damping, settings)
-                }),
-        )
+        let each = request
+            .damping
+            .zip_map(&request.speed, |damping, speed| axis::Request {
+                hold: request.hold,
+                damping,
+                speed,
+            });
+        Proposal(self.0.zip_zip_map(f_h, &each, |axis, f_h, request| {
+            axis.propose(f_h, &request, settings)
+        }))
     }
 }
 

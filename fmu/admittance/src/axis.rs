@@ -29,6 +29,17 @@ pub struct Sensed {
     e: Real,
 }
 
+/// What is asked of one axis at a tick, beside its inputs: its part of [`axes::Request`](crate::axes::Request).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Request {
+    /// Whether the nominal stays where it is.
+    pub hold: bool,
+    /// Damping on top of D_n, N·s/m, ≥ 0.
+    pub damping: Real,
+    /// Speed that the nominal must not exceed, m/s, ≥ 0.
+    pub speed: Real,
+}
+
 /// What one axis asks for at a tick. Nothing has happened until it is committed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Proposal {
@@ -149,11 +160,11 @@ impl Sensed {
     }
 
     /// What the axis asks for with the human's force `f_h` (N): nominal and coupling are solved together, within the
-    /// bounds. `hold` keeps the nominal where it is; `damping` (N·s/m, ≥ 0) comes on top of D_n.
-    pub fn propose(self, f_h: Real, hold: bool, damping: Real, settings: &Settings) -> Proposal {
+    /// bounds and the `request`.
+    pub fn propose(self, f_h: Real, request: &Request, settings: &Settings) -> Proposal {
         let Self { axis, q, e } = self;
         let damped = Gains {
-            D_n: axis.gains.D_n + damping,
+            D_n: axis.gains.D_n + request.damping,
             ..axis.gains
         };
         let sample = Sample {
@@ -162,7 +173,10 @@ impl Sensed {
             dq: axis.motion.dq(),
             f_h,
         };
-        let interval = axis.bounds.interval(q + e, settings.T, hold);
+        let interval = axis
+            .bounds
+            .interval(q + e, settings.T, request.hold)
+            .no_faster_than(request.speed);
         let free = midpoint::coupled(&damped, settings.reaction(), settings.T, &sample);
         let v_m = interval.keep(free.v_m);
         let held = v_m != free.v_m;

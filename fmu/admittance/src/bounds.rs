@@ -9,6 +9,7 @@
 //! | speed | ±v |
 //! | position box | (q_min − q_n)/T … (q_max − q_n)/T, as far as it leads inwards |
 //! | hold | 0 |
+//! | request | ±v, for one tick: to brake before a hold |
 
 use crate::parameters::{LIMIT, NOT_NAN, check};
 use crate::{ParameterError, Real, real};
@@ -85,6 +86,15 @@ pub struct Interval {
 }
 
 impl Interval {
+    /// The part of it within ±`speed` (m/s, ≥ 0).
+    #[must_use]
+    pub fn no_faster_than(self, speed: Real) -> Self {
+        Self {
+            low: real::max(self.low, -speed),
+            high: real::min(self.high, speed),
+        }
+    }
+
     /// `v_m` (m/s) within; NaN stays NaN.
     pub fn keep(&self, v_m: Real) -> Real {
         if v_m > self.high {

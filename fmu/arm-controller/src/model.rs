@@ -5,10 +5,11 @@ use admittance::advice::{Advice, advise};
 use admittance::hand::StiffHand;
 use admittance::{Bounds, Gains, Law, ParameterError, Reach, Settings};
 use arm_law::ArmLaw;
-use arm_law::arm_law::{Inputs, Outputs, Parameters};
+use arm_law::arm_law::{Inputs, Outputs, Parameters, Signals};
 use arm_law::kinematics::Kinematics;
 use arm_law::limits::{Limits, TorqueLimiting};
 use arm_law::singularity::Singularity;
+use arm_law::supervision::{self, Demand, Status};
 use export::{Log, Model, Refusal, Step, Ticks};
 use serde::{Deserialize, Serialize};
 
@@ -67,6 +68,26 @@ pub struct ArmController {
 
     pub stiff_hand: StiffHand,
     pub stiff_hand_seen: StiffHandSeen,
+    pub enable: bool,
+    pub acknowledge: bool,
+    pub emergency_stop: bool,
+    pub heartbeat: i32,
+    pub ft_valid: bool,
+    pub encoder_valid: bool,
+    pub state: i32,
+    pub diagnostic: i32,
+    pub first_fault: i32,
+    pub authority: f64,
+    pub supervision: bool,
+    pub init_time: f64,
+    pub engage_time: f64,
+    pub soft_stop_time: f64,
+    pub heartbeat_timeout: f64,
+    pub hold_enter: f64,
+    pub hold_leave: f64,
+    pub hold_time: f64,
+    pub hold_brake: f64,
+    pub saturation_time: f64,
 
     ticks: Ticks,
     arm_law: Option<ArmLaw>,
@@ -104,6 +125,24 @@ impl Default for ArmController {
             tuning_time,
             ..
         } = Settings::default();
+        let Signals {
+            enable,
+            acknowledge,
+            emergency_stop,
+            heartbeat,
+            encoder_valid,
+        } = Signals::default();
+        let supervision::Parameters {
+            init_time,
+            engage_time,
+            soft_stop_time,
+            heartbeat_timeout,
+            hold_enter,
+            hold_leave,
+            hold_time,
+            hold_brake,
+            saturation_time,
+        } = supervision::Parameters::default();
         Self {
             q: [0.0, -1.48096, 1.70138],
             f_h: [0.0; 3],
@@ -159,6 +198,26 @@ impl Default for ArmController {
             tau_rate_max: [0.0; 3],
             stiff_hand: StiffHand::default(),
             stiff_hand_seen: StiffHandSeen::default(),
+            enable,
+            acknowledge,
+            emergency_stop,
+            heartbeat,
+            ft_valid: true,
+            encoder_valid,
+            state: 0,
+            diagnostic: 0,
+            first_fault: 0,
+            authority: 0.0,
+            supervision: false,
+            init_time,
+            engage_time,
+            soft_stop_time,
+            heartbeat_timeout,
+            hold_enter,
+            hold_leave,
+            hold_time,
+            hold_brake,
+            saturation_time,
             ticks: Ticks::default(),
             arm_law: None,
         }
@@ -180,6 +239,7 @@ impl Model for ArmController {
             .map_err(|_| self.overflow("the start"))?;
         self.show(&shown, &at_rest);
         self.ft.clear();
+        self.show_status(&Status::of(Demand::Rest));
         self.arm_law = Some(arm_law);
         self.ticks = Ticks::default();
         self.tick = -1;
@@ -234,6 +294,17 @@ impl ArmController {
             stiff_hand: self.stiff_hand,
             frame: self.ft.sensed_in()?,
             sensor: self.ft.sensor()?,
+            supervision: self.supervision.then_some(supervision::Parameters {
+                init_time: self.init_time,
+                engage_time: self.engage_time,
+                soft_stop_time: self.soft_stop_time,
+                heartbeat_timeout: self.heartbeat_timeout,
+                hold_enter: self.hold_enter,
+                hold_leave: self.hold_leave,
+                hold_time: self.hold_time,
+                hold_brake: self.hold_brake,
+                saturation_time: self.saturation_time,
+            }),
         })
     }
 
@@ -257,10 +328,17 @@ impl ArmController {
         Inputs {
             q: self.q.into(),
             hand: self.ft.reading(self.f_h),
-            ft_valid: true,
+            ft_valid: self.ft_valid,
             tare: self.ft.tare,
             engage: self.engage,
             hold: self.hold,
+            signals: Signals {
+                enable: self.enable,
+                acknowledge: self.acknowledge,
+                emergency_stop: self.emergency_stop,
+                heartbeat: self.heartbeat,
+                encoder_valid: self.encoder_valid,
+            },
         }
     }
 
@@ -352,6 +430,7 @@ impl ArmController {
             slowed,
             stiff_hand,
             ft,
+            status,
         } = outputs;
         self.p = pose.p.into();
         self.sigma_min = pose.sigma_min;
@@ -373,6 +452,7 @@ impl ArmController {
             k_h: stiff_hand.k_h().into(),
         };
         self.ft.show(ft, &arm_law.bias());
+        self.show_status(status);
         let ledger = arm_law.ledger();
         self.energy = Energy {
             H: ledger.H(),
@@ -382,6 +462,13 @@ impl ArmController {
             debt: ledger.is_in_debt(),
             ..self.energy
         };
+    }
+
+    fn show_status(&mut self, status: &Status) {
+        self.state = status.state.number();
+        self.diagnostic = status.diagnostic.number();
+        self.first_fault = status.first_fault.number();
+        self.authority = status.authority;
     }
 
     #[cold]

@@ -1,6 +1,7 @@
 //! One row per variable.
 
 use crate::ArmController;
+use arm_law::supervision::{Diagnostic, State};
 use declaration::Variability::{Discrete, Fixed, Tunable};
 use declaration::{
     Declare, Description, Enumeration, Experiment, Item, Stepping, boolean, enumeration, integer,
@@ -161,6 +162,102 @@ pub const TARE_FAILURE: Enumeration = Enumeration {
         ),
     ],
 };
+
+/// The type of `state`: [`State`] by number.
+pub const STATE: Enumeration = Enumeration {
+    name: "State",
+    about: "What the controller is doing",
+    items: &[
+        item(
+            State::Off.number(),
+            State::Off.name(),
+            "not enabled, no torque",
+        ),
+        item(
+            State::Init.number(),
+            State::Init.name(),
+            "waits for good sensors and a heartbeat, no torque",
+        ),
+        item(
+            State::Ready.number(),
+            State::Ready.name(),
+            "waits for a rising edge of engage, no torque",
+        ),
+        item(
+            State::Engaged.number(),
+            State::Engaged.name(),
+            "the law runs",
+        ),
+        item(
+            State::Hold.number(),
+            State::Hold.name(),
+            "the law runs with its nominal standing still",
+        ),
+        item(
+            State::SoftStop.number(),
+            State::SoftStop.name(),
+            "the nominal stands still and the authority falls to 0",
+        ),
+        item(
+            State::Fault.number(),
+            State::Fault.name(),
+            "waits for an acknowledgement, no torque",
+        ),
+    ],
+};
+
+/// The type of `diagnostic` and `first_fault`: [`Diagnostic`] by number.
+pub const DIAGNOSTIC: Enumeration = Enumeration {
+    name: "Diagnostic",
+    about: "Why the law does not simply run; of several reasons the one with the smallest number",
+    items: &[
+        reason(Diagnostic::None, "the law runs or holds"),
+        reason(Diagnostic::EmergencyStop, "fault: pressed"),
+        reason(
+            Diagnostic::EncoderInvalid,
+            "fault: joint angles marked invalid or not finite",
+        ),
+        reason(Diagnostic::NotFinite, "fault: the law's result is not"),
+        reason(
+            Diagnostic::HeartbeatLost,
+            "fault: unchanged for heartbeat_timeout, or never changed",
+        ),
+        reason(
+            Diagnostic::FtInvalid,
+            "fault: the force sensor has one, ft.fault",
+        ),
+        reason(
+            Diagnostic::EnergyDebt,
+            "warning: no torque until the tank is repaid",
+        ),
+        reason(
+            Diagnostic::OutsideBounds,
+            "warning: motion beyond dq_max or ddq_max",
+        ),
+        reason(
+            Diagnostic::Saturated,
+            "warning: limits have acted for saturation_time",
+        ),
+        reason(
+            Diagnostic::NotAcknowledged,
+            "the fault's cause is gone; waits for a rising edge of acknowledge",
+        ),
+        reason(Diagnostic::NotEnabled, "enable is false"),
+        reason(
+            Diagnostic::Preparing,
+            "sensors and heartbeat not yet good for init_time",
+        ),
+        reason(Diagnostic::NotEngaged, "engage is false"),
+        reason(
+            Diagnostic::EngageStuck,
+            "engage has not risen since the controller was ready",
+        ),
+    ],
+};
+
+const fn reason(diagnostic: Diagnostic, about: &'static str) -> Item {
+    item(diagnostic.number(), diagnostic.name(), about)
+}
 
 /// Smallest accepted sample period, gain, mass or limit, in SI units: what lies below is a mistake in a unit. The law
 /// itself asks for values greater than 0.
@@ -491,6 +588,73 @@ impl Declare for ArmController {
                 .parameter(Fixed)
                 .at_least(0.0)
                 .about("Moment component of the bias beyond which a tare fails: somebody leans on the handle; 0 = any"),
+            boolean!(enable)
+                .input(Discrete)
+                .about("Whether the controller may run at all; only with supervision"),
+            boolean!(acknowledge)
+                .input(Discrete)
+                .about("Its rising edge acknowledges a fault whose cause is gone; only with supervision"),
+            boolean!(emergency_stop).input(Discrete).about(
+                "Whether the emergency stop is pressed: no torque, at once; only with supervision",
+            ),
+            integer!(heartbeat).input(Discrete).about(
+                "A counter that must change within heartbeat_timeout, by whatever step; only with supervision",
+            ),
+            boolean!(ft_valid).input(Discrete).about(
+                "The sensor's own word on the force; if false the law sees no force (ft.fault) and, with supervision, stops softly",
+            ),
+            boolean!(encoder_valid).input(Discrete).about(
+                "Whether q can be trusted; if not there is no torque, at once; only with supervision",
+            ),
+            enumeration!(state, &STATE).output(Discrete).about(
+                "State of the supervision; without it off, engaged or hold, as engage and hold say",
+            ),
+            enumeration!(diagnostic, &DIAGNOSTIC)
+                .output(Discrete)
+                .about("Why the law does not simply run at this tick; always 0 without supervision"),
+            enumeration!(first_fault, &DIAGNOSTIC)
+                .output(Discrete)
+                .about("The first fault, kept until it is acknowledged; 0 if there is none"),
+            real!(authority, unit::NONE).output(Discrete).about(
+                "Share of its force that the law exerts; it rises from 0 when the controller engages and falls in a soft stop",
+            ),
+            boolean!(supervision).parameter(Fixed).about(
+                "Whether supervision decides when the law may act; if not, engage alone does",
+            ),
+            real!(init_time, unit::SECOND).parameter(Fixed).at_least(0.0).about(
+                "For how long sensors and heartbeat must have been good before the controller is ready",
+            ),
+            real!(engage_time, unit::SECOND)
+                .parameter(Fixed)
+                .at_least(0.0)
+                .about("Time in which the authority rises from 0 to 1; one tick at least"),
+            real!(soft_stop_time, unit::SECOND)
+                .parameter(Fixed)
+                .at_least(0.0)
+                .about("Time in which the authority falls to 0 in a soft stop; one tick at least"),
+            real!(heartbeat_timeout, unit::SECOND)
+                .parameter(Fixed)
+                .at_least(0.0)
+                .about("Time within which heartbeat must change; 0 = it is not watched"),
+            real!(hold_enter, unit::NEWTON).parameter(Fixed).at_least(0.0).about(
+                "Magnitude of f_h below which the hand is at rest and the controller holds by itself; 0 = it never does",
+            ),
+            real!(hold_leave, unit::NEWTON)
+                .parameter(Fixed)
+                .at_least(0.0)
+                .about("Magnitude of f_h above which the hand is no longer at rest; not below hold_enter"),
+            real!(hold_time, unit::SECOND)
+                .parameter(Fixed)
+                .at_least(0.0)
+                .about("For how long f_h must have been below hold_enter before the hand is at rest"),
+            real!(hold_brake, unit::SECOND)
+                .parameter(Fixed)
+                .at_least(0.0)
+                .about("Time in which supervision brings a moving nominal to rest; one tick at least"),
+            real!(saturation_time, unit::SECOND)
+                .parameter(Fixed)
+                .at_least(0.0)
+                .about("For how long limits may act before diagnostic reports it; 0 = it does not"),
         ],
     };
 }

@@ -6,10 +6,11 @@ use crate::kinematics::{Kinematics, Pose};
 use crate::limits::Limits;
 use crate::singularity::Singularity;
 use crate::stiff_hand::Detectors;
+use crate::supervision::{self, Demand, Report, Status, Supervisor};
 use crate::task_space::{Outcome, TaskSpace};
 use crate::wrench::{Conditioned, Conditioner, Frame, Sample, Sensor, Wrench};
 use admittance::hand::StiffHand;
-use admittance::{Bounds, Gains, Ledger, ParameterError, Reach, Real, Request, Settings};
+use admittance::{Bounds, Gains, Ledger, ParameterError, Reach, Real, Request, Settings, real};
 use nalgebra::Vector3;
 
 /// What stays fixed while the law is in use, but for the gains.
@@ -36,6 +37,8 @@ pub struct Parameters {
     pub frame: Frame,
     /// What is made of its reading.
     pub sensor: Sensor,
+    /// Supervision; `None`: `engage` alone decides.
+    pub supervision: Option<supervision::Parameters>,
 }
 
 /// What is sensed and asked for at a tick.
@@ -53,6 +56,36 @@ pub struct Inputs {
     pub engage: bool,
     /// Whether the nominal is to stay where it is.
     pub hold: bool,
+    /// What supervision sees besides; without it nobody does.
+    pub signals: Signals,
+}
+
+/// What an operator and a machine's other parts say: [`supervision::Inputs`] less what [`Inputs`] has already.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Signals {
+    /// Whether the controller may run at all.
+    pub enable: bool,
+    /// Its rising edge acknowledges a fault.
+    pub acknowledge: bool,
+    /// Whether the emergency stop is pressed.
+    pub emergency_stop: bool,
+    /// A counter that changes as long as its sender lives.
+    pub heartbeat: i32,
+    /// Whether the joint angles can be trusted. Angles that are not finite never are.
+    pub encoder_valid: bool,
+}
+
+impl Default for Signals {
+    /// Not enabled, with good sensors.
+    fn default() -> Self {
+        Self {
+            enable: false,
+            acknowledge: false,
+            emergency_stop: false,
+            heartbeat: 0,
+            encoder_valid: true,
+        }
+    }
 }
 
 /// What came of a tick.
@@ -68,6 +101,8 @@ pub struct Outputs {
     pub stiff_hand: Detectors,
     /// What the law knows of the hand: about the handle, in the base frame.
     pub ft: Conditioned,
+    /// What supervision says; without it, that the law does what `engage` and `hold` say.
+    pub status: Status,
 }
 
 /// A tick whose result is not finite: an input was not, or numbers overflow.
@@ -84,6 +119,11 @@ pub struct ArmLaw {
     frame: Frame,
     conditioner: Conditioner,
     task_space: TaskSpace,
+    supervisor: Option<Supervisor>,
+    /// the joint angles of the last tick that had a result, rad
+    q: Vector3<Real>,
+    /// the nominal's velocity at the last tick at which it was free, m/s
+    dp_n: Vector3<Real>,
 }
 
 impl ArmLaw {
@@ -109,6 +149,12 @@ impl ArmLaw {
                 parameters.reach,
                 parameters.limits,
             )?,
+            supervisor: parameters
+                .supervision
+                .map(|supervision| Supervisor::new(&supervision, parameters.settings.T))
+                .transpose()?,
+            q: Vector3::zeros(),
+            dp_n: Vector3::zeros(),
         })
     }
 
@@ -123,36 +169,133 @@ impl ArmLaw {
     /// One tick.
     ///
     /// # Errors
-    /// [`NotFinite`]; the law stays as it was before the tick.
+    /// [`NotFinite`], without supervision; the law stays as it was before the tick. With supervision that is a fault with a
+    /// name and no torque.
     pub fn tick(&mut self, inputs: &Inputs) -> Result<Outputs, NotFinite> {
         let before = *self;
-        let pose = self.kinematics.at(&inputs.q);
-        let damping = self.singularity.damping(pose.sigma_min);
-        let ft = self.sensed(&pose, inputs);
-        let outcome = if inputs.engage {
-            self.stiff_hand = self.stiff_hand.sensed(&pose.p, &ft.hand.force);
-            let request = Request {
-                hold: inputs.hold,
-                damping: Vector3::repeat(damping) + self.stiff_hand.D(),
-                ..Request::default()
-            };
-            self.task_space
-                .step(&pose, &inputs.q, &ft.hand.force, &request)
-        } else {
-            self.stiff_hand = self.stiff_hand.at_rest();
-            self.task_space.rest(&pose, &inputs.q)
-        };
-        if outcome.is_finite() && self.ledger().G().is_finite() {
-            Ok(Outputs {
-                pose,
-                outcome,
-                slowed: inputs.engage && damping > 0.0,
-                stiff_hand: self.stiff_hand,
-                ft,
-            })
-        } else {
+        match self.supervisor {
+            Some(supervisor) => Ok(self.supervised(inputs, supervisor)),
+            None => {
+                let demand = if inputs.engage {
+                    Demand::Run {
+                        authority: 1.0,
+                        freedom: if inputs.hold { 0.0 } else { 1.0 },
+                    }
+                } else {
+                    Demand::Rest
+                };
+                let pose = self.kinematics.at(&inputs.q);
+                let ft = self.sensed(&pose, inputs);
+                self.run(&pose, &inputs.q, ft, demand)
+                    .inspect_err(|NotFinite| *self = before)
+            }
+        }
+    }
+
+    /// One tick in which supervision decides. What cannot be trusted does not reach the law: without joint angles it rests
+    /// where it last knew the arm to be, without a force it feels none.
+    fn supervised(&mut self, inputs: &Inputs, mut supervisor: Supervisor) -> Outputs {
+        let before = *self;
+        let Inputs {
+            signals,
+            engage,
+            hold,
+            ..
+        } = *inputs;
+        let is_known = inputs.q.iter().all(|q| q.is_finite());
+        let q = if is_known { inputs.q } else { self.q };
+        let pose = self.kinematics.at(&q);
+        let ft = self.sensed(&pose, &Inputs { q, ..*inputs });
+        let demand = supervisor.step(&supervision::Inputs {
+            enable: signals.enable,
+            engage,
+            acknowledge: signals.acknowledge,
+            emergency_stop: signals.emergency_stop,
+            hold,
+            heartbeat: signals.heartbeat,
+            ft_valid: ft.fault.is_none(),
+            encoder_valid: signals.encoder_valid && is_known,
+            force: ft.hand.force.norm(),
+        });
+
+        let ran = self.run(&pose, &q, ft, demand);
+        let status = supervisor.judge(&ran.as_ref().map_or(Report::NOT_FINITE, |ran| Report {
+            finite: true,
+            debt: self.ledger().is_in_debt(),
+            outside_bounds: ran.outcome.outside_bounds,
+            saturated: ran.outcome.saturated,
+        }));
+        let ran = ran.unwrap_or_else(|NotFinite| {
             *self = before;
-            Err(NotFinite)
+            self.abandon(ft)
+        });
+        self.supervisor = Some(supervisor);
+        Outputs { status, ..ran }
+    }
+
+    /// No torque, the nominal where the arm was last known to be.
+    fn abandon(&mut self, ft: Conditioned) -> Outputs {
+        let pose = self.kinematics.at(&self.q);
+        self.stiff_hand = self.stiff_hand.at_rest();
+        Outputs {
+            outcome: self.task_space.abandon(&pose),
+            pose,
+            slowed: false,
+            stiff_hand: self.stiff_hand,
+            ft,
+            status: Status::of(Demand::Rest),
+        }
+    }
+
+    /// What the law does at joint angles `q` (rad), where the handle is at `pose`, with the hand as it is known; judged by
+    /// nobody. After an error it is not as it was.
+    fn run(
+        &mut self,
+        pose: &Pose,
+        q: &Vector3<Real>,
+        ft: Conditioned,
+        demand: Demand,
+    ) -> Result<Outputs, NotFinite> {
+        let damping = self.singularity.damping(pose.sigma_min);
+        let outcome = match demand {
+            Demand::Run { authority, freedom } => {
+                self.stiff_hand = self.stiff_hand.sensed(&pose.p, &ft.hand.force);
+                let request = Request {
+                    authority,
+                    hold: freedom <= 0.0,
+                    damping: Vector3::repeat(damping) + self.stiff_hand.D(),
+                    speed: self.speed(freedom),
+                };
+                self.task_space.step(pose, q, &ft.hand.force, &request)
+            }
+            Demand::Rest => {
+                self.stiff_hand = self.stiff_hand.at_rest();
+                self.task_space.rest(pose, q)
+            }
+        };
+        if !(outcome.is_finite() && self.ledger().G().is_finite()) {
+            return Err(NotFinite);
+        }
+        self.q = *q;
+        if !matches!(demand, Demand::Run { freedom, .. } if freedom < 1.0) {
+            self.dp_n = outcome.dp_n;
+        }
+        Ok(Outputs {
+            pose: *pose,
+            outcome,
+            slowed: demand != Demand::Rest && damping > 0.0,
+            stiff_hand: self.stiff_hand,
+            ft,
+            status: Status::of(demand),
+        })
+    }
+
+    /// Speed along each axis that a nominal of this `freedom` may have, m/s: it brakes in equal steps.
+    fn speed(&self, freedom: Real) -> Vector3<Real> {
+        if freedom < 1.0 {
+            self.dp_n.map(|v| real::abs(v) * freedom)
+        } else {
+            Vector3::repeat(Real::INFINITY)
         }
     }
 

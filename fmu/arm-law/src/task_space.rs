@@ -171,9 +171,15 @@ impl TaskSpace {
     /// One tick out of the loop: no torque, the nominal at the handle. The energy that was stored is given up; the next
     /// [`step`](Self::step) engages anew.
     pub fn rest(&mut self, pose: &Pose, q: &Vector3<Real>) -> Outcome {
+        self.ledger = self.ledger.settled(0.0, q);
+        self.abandon(pose)
+    }
+
+    /// The same when the sample that ends cannot be told in finite numbers: the ledger keeps what it last knew.
+    pub fn abandon(&mut self, pose: &Pose) -> Outcome {
         let zeros = Vector3::zeros();
         self.axes.rest(&pose.p);
-        self.ledger = self.ledger.settled(0.0, q).opened(&zeros, 0.0);
+        self.ledger = self.ledger.opened(&zeros, 0.0);
         (self.f, self.tau) = (zeros, zeros);
         Outcome {
             f_a: zeros,

@@ -11,6 +11,7 @@ mod rows;
 mod singularity;
 mod start;
 mod stiff_hand;
+mod supervision;
 mod ticks;
 mod tuning;
 

@@ -2,7 +2,10 @@
 
 use crate::ArmController;
 use admittance::Law;
-use arm_controller::rows::{FAULT, FRAME, LAW, SOURCE, TARE_FAILURE, TARE_STATE, TORQUE_LIMITING};
+use arm_controller::rows::{
+    DIAGNOSTIC, FAULT, FRAME, LAW, SOURCE, STATE, TARE_FAILURE, TARE_STATE, TORQUE_LIMITING,
+};
+use arm_law::supervision::{Diagnostic, State};
 use arm_law::wrench::{Fault, TareFailure, TareState};
 use declaration::{Access, Causality, Declare, Variability};
 use std::collections::HashSet;
@@ -111,6 +114,11 @@ fn enumerations_have_the_numbers_and_names_that_the_model_knows() {
             .collect()
     };
     assert_eq!(items(LAW), Law::ALL.map(|law| (law.number(), law.name())));
+    assert_eq!(items(STATE), State::ALL.map(|s| (s.number(), s.name())));
+    assert_eq!(
+        items(DIAGNOSTIC),
+        Diagnostic::ALL.map(|d| (d.number(), d.name()))
+    );
     assert_eq!(items(TORQUE_LIMITING), [(1, "scale"), (2, "clip")]);
     assert_eq!(items(FRAME), [(1, "base"), (2, "sensor")]);
     assert_eq!(items(SOURCE), [(1, "f_h"), (2, "wrench")]);

@@ -17,7 +17,7 @@ pub enum Diagnostic {
     NotFinite = 3,
     /// Fault: the heartbeat has not changed within its timeout, or never did.
     HeartbeatLost = 4,
-    /// Fault: the human's force is marked invalid, or not finite.
+    /// Fault: the human's force cannot be trusted.
     FtInvalid = 5,
     /// Warning: motion beyond the stated bounds took more energy than the tank had; no torque until it is repaid.
     EnergyDebt = 6,

@@ -24,7 +24,7 @@ pub struct Inputs {
     pub hold: bool,
     /// A counter that changes as long as its sender lives.
     pub heartbeat: i32,
-    /// Whether the human's force can be trusted. The caller also makes it false when the force is not finite.
+    /// Whether the human's force can be trusted: what conditions it has found no fault, and it is finite.
     pub ft_valid: bool,
     /// Whether the joint angles can be trusted. The caller also makes it false when they are not finite.
     pub encoder_valid: bool,
@@ -89,6 +89,16 @@ impl Default for Report {
     }
 }
 
+impl Report {
+    /// There is no result.
+    pub const NOT_FINITE: Self = Self {
+        finite: false,
+        debt: false,
+        outside_bounds: false,
+        saturated: false,
+    };
+}
+
 /// What supervision shows after a tick.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Status {
@@ -100,6 +110,23 @@ pub struct Status {
     pub first_fault: Diagnostic,
     /// Share of its force that the law exerts.
     pub authority: Real,
+}
+
+impl Status {
+    /// Without supervision: the law does what it must do, and there is nothing to say.
+    pub const fn of(demand: Demand) -> Self {
+        let (state, authority) = match demand {
+            Demand::Rest => (State::Off, 0.0),
+            Demand::Run { authority, freedom } if freedom < 1.0 => (State::Hold, authority),
+            Demand::Run { authority, .. } => (State::Engaged, authority),
+        };
+        Self {
+            state,
+            diagnostic: Diagnostic::None,
+            first_fault: Diagnostic::None,
+            authority,
+        }
+    }
 }
 
 /// The state machine with its memory.
