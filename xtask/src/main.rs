@@ -5,6 +5,7 @@
 //! | `cargo xtask fmu` | builds the archives | `target/fmu/*.fmu`, `target/fmu/test/` |
 //! | `cargo xtask test` | everything that is checked | |
 //! | `cargo xtask reproduce` | the paper's experiments | `results/report.html` |
+//! | `cargo xtask adversary --minutes N` | attacks on the energy tank | what breaks it, in `tests/adversary/regressions.txt` |
 //! | `cargo xtask bench` | how fast the FMUs and the harness are | |
 //! | `cargo xtask venv` | the Python environment of the others | `.venv` |
 //!
@@ -51,6 +52,15 @@ enum Command {
     },
     /// Run the paper's experiments from a fresh clone to results/report.html
     Reproduce,
+    /// Search for what empties the energy tank; what is found is kept as a regression
+    Adversary {
+        /// How long
+        #[arg(long, default_value_t = 10.0)]
+        minutes: f64,
+        /// Seed of the first attack
+        #[arg(long, default_value_t = 10_000_000)]
+        seed: u64,
+    },
     /// Measure: FMU calls (cargo bench), harness loop
     Bench,
     /// Create the Python environment .venv from harness/requirements.lock
@@ -62,6 +72,7 @@ fn main() -> ExitCode {
         Command::Fmu { bless } => stages::fmu(bless),
         Command::Test { keep_going } => stages::test(keep_going),
         Command::Reproduce => stages::reproduce(),
+        Command::Adversary { minutes, seed } => stages::adversary(minutes, seed),
         Command::Bench => stages::bench(),
         Command::Venv => stages::venv(),
     };

@@ -197,6 +197,21 @@ pub fn bench() -> Outcome {
     stages.finish()
 }
 
+/// `cargo xtask adversary`
+pub fn adversary(minutes: f64, seed: u64) -> Outcome {
+    let (minutes, seed) = (minutes.to_string(), seed.to_string());
+    run(&mut cargo([
+        "run",
+        "--locked",
+        "--release",
+        "--package",
+        "adversary",
+        "--",
+        &minutes,
+        &seed,
+    ]))
+}
+
 /// Where the configuration of the Python tools lies.
 fn in_harness(command: &mut Command) -> &mut Command {
     command.current_dir(root().join("harness"))

@@ -21,6 +21,7 @@ pub mod case;
 pub mod forces;
 pub mod genes;
 pub mod motions;
+pub mod plain;
 pub mod random;
 pub mod regressions;
 pub mod subject;
