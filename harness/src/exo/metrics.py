@@ -160,6 +160,23 @@ def largest_step(run: Recording, *, columns: tuple[str, ...], after: float, befo
 
 
 @metric
+def ramp_excess(run: Recording, *, controller: str, after: float, before: float) -> float:
+    """What a joint's torque step exceeds its bound by while the authority a rises over n ticks (N·m). With tau = a d
+    tau_k − tau_{k−1} = (a_k − a_{k−1}) d_k + a_{k−1} (d_k − d_{k−1}): |step| ≤ |d_k|/n + a_{k−1} |d_k − d_{k−1}|."""
+    later = np.flatnonzero(window(run.time, after=after, before=before))
+    earlier = later - 1
+    n = run.parameter(f"{controller}.engage_time") / run.parameter(f"{controller}.T")
+    authority = run[f"{controller}.authority"][earlier]
+
+    def excess(joint: int) -> float:
+        tau, demand = run[f"{controller}.tau_a[{joint}]"], run[f"{controller}.tau_demand[{joint}]"]
+        bound = np.abs(demand[later]) / n + authority * np.abs(demand[later] - demand[earlier])
+        return float(np.max(np.abs(tau[later] - tau[earlier]) - bound))
+
+    return max(excess(joint) for joint in (1, 2, 3))
+
+
+@metric
 def ticks_until(run: Recording, *, column: str, value: float, after: float) -> float:
     """Number of ticks from `after` until the column first has this value."""
     since = np.flatnonzero(window(run.time, after=after, before=None))

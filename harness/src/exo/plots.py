@@ -33,6 +33,8 @@ STYLE: dict[str, Any] = {
     "savefig.dpi": 130,
     "axes.prop_cycle": rcsetup.cycler(color=["#1f4e9c", "#c0392b", "#2e8b57", "#8e6c1d", "#6a3d9a"]),
 }
+#: Of the values 0, 1, … behind a panel: from nothing to a fault.
+BAND_COLORS = ("#e8e8e8", "#c6dbef", "#ccebc5", "#decbe4", "#fed9a6", "#ffffcc", "#fbb4ae")
 #: A line needs no more points than a picture has columns, twice over; data files keep every tick.
 PLOTTED_POINTS = 4000
 
@@ -60,12 +62,12 @@ def _panels(canvas: Canvas, figure: Figure, recordings: Mapping[str, Recording])
         if position >= len(figure.panels):
             axes.set_visible(False)
             continue
-        _panel(axes, figure.panels[position], recordings)
+        _panel(axes, figure.panels[position], recordings, topmost=position < figure.columns)
         if position + figure.columns >= len(figure.panels):
             axes.set_xlabel(figure.x_label)
 
 
-def _panel(axes: Any, panel: Panel, recordings: Mapping[str, Recording]) -> None:
+def _panel(axes: Any, panel: Panel, recordings: Mapping[str, Recording], *, topmost: bool) -> None:
     for curve in panel.curves:
         run = recordings[curve.case]
         left, right = panel.x_range or (0.0, run.time[-1])
@@ -75,7 +77,7 @@ def _panel(axes: Any, panel: Panel, recordings: Mapping[str, Recording]) -> None
         axes.plot(time, values, "--" if curve.dashed else "-", label=curve.label, **look)
         axes.set_xlim(left, right)
     if panel.bands:
-        _bands(axes, panel.bands, recordings[panel.bands.case])
+        _bands(axes, panel.bands, recordings[panel.bands.case], labelled=topmost)
     for mark in panel.marks:
         axes.axhline(mark, color="#555555", linestyle=":", linewidth=0.9)
     axes.set_ylabel(panel.y_label)
@@ -86,16 +88,19 @@ def _panel(axes: Any, panel: Panel, recordings: Mapping[str, Recording]) -> None
         axes.legend(loc="best", ncols=min(len(panel.curves), 3))
 
 
-def _bands(axes: Any, bands: Bands, run: Recording) -> None:
-    """One band per stretch of one value, with its label once, above the panel."""
+def _bands(axes: Any, bands: Bands, run: Recording, *, labelled: bool) -> None:
+    """One band per stretch of one value; `labelled`: with each value's label above the panel."""
     values = run[bands.column]
     starts = np.concatenate([[0], np.flatnonzero(np.diff(values)) + 1])
     ends = np.append(run.time[starts[1:]], run.time[-1])
-    colors = mpl.colormaps["Pastel1"].colors  # type: ignore[attr-defined]
     shown: dict[int, Any] = {}
     for start, end in zip(starts, ends, strict=True):
         value = int(values[start])
-        shown[value] = axes.axvspan(run.time[start], end, color=colors[value % len(colors)], linewidth=0.0, zorder=0)
+        shown[value] = axes.axvspan(
+            run.time[start], end, color=BAND_COLORS[value % len(BAND_COLORS)], linewidth=0.0, zorder=0
+        )
+    if not labelled:
+        return
     ordered = sorted(shown)
     legend = axes.legend(
         [shown[value] for value in ordered],
@@ -105,7 +110,8 @@ def _bands(axes: Any, bands: Bands, run: Recording) -> None:
         ncols=len(ordered),
         borderaxespad=0.2,
     )
-    axes.add_artist(legend)
+    axes.add_artist(legend)  # a later legend does not replace it
+    legend.set_clip_on(False)
 
 
 def _thinned(time: Any, values: Any) -> tuple[Any, Any]:
