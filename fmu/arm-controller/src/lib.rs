@@ -37,6 +37,7 @@
 //! | module | what |
 //! |---|---|
 //! | [`force_sensor`] | the variables `ft.*` |
+//! | [`joint`] | the variables of the joint-space form |
 //! | [`model`] | the variables, start, step, refusals |
 //! | [`rows`] | one row per variable: name, unit, bounds, description |
 
@@ -47,6 +48,7 @@
 )]
 
 pub mod force_sensor;
+pub mod joint;
 pub mod model;
 pub mod rows;
 

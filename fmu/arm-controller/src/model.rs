@@ -1,11 +1,13 @@
 //! The variables and what a step does.
 
 use crate::force_sensor::ForceSensor;
+use crate::joint::{Joint, Nominal};
 use admittance::advice::{Advice, advise};
 use admittance::hand::StiffHand;
 use admittance::{Bounds, Gains, Law, ParameterError, Reach, Settings};
 use arm_law::ArmLaw;
-use arm_law::arm_law::{Inputs, Outputs, Parameters, Signals};
+use arm_law::arm_law::{Inputs, Outputs, Parameters, Signals, Space};
+use arm_law::joint_space::JointParameters;
 use arm_law::kinematics::Kinematics;
 use arm_law::limits::{Limits, TorqueLimiting};
 use arm_law::singularity::Singularity;
@@ -89,6 +91,14 @@ pub struct ArmController {
     pub hold_brake: f64,
     pub saturation_time: f64,
 
+    pub space: i32,
+    pub joint: Joint,
+    pub nominal: Nominal,
+    pub M_n: [f64; 9],
+    pub q_n: [f64; 3],
+    pub dq_n: [f64; 3],
+    pub e_q: [f64; 3],
+
     ticks: Ticks,
     arm_law: Option<ArmLaw>,
 }
@@ -113,6 +123,11 @@ pub struct StiffHandSeen {
     pub D: [f64; 3],
     pub k_h: [f64; 3],
 }
+
+/// `space`: the nominal is a mass at the handle.
+const TASK: i32 = 1;
+/// `space`: the nominal is an arm.
+const JOINT: i32 = 2;
 
 impl Default for ArmController {
     fn default() -> Self {
@@ -218,6 +233,13 @@ impl Default for ArmController {
             hold_time,
             hold_brake,
             saturation_time,
+            space: TASK,
+            joint: Joint::default(),
+            nominal: Nominal::default(),
+            M_n: [0.0; 9],
+            q_n: [0.0; 3],
+            dq_n: [0.0; 3],
+            e_q: [0.0; 3],
             ticks: Ticks::default(),
             arm_law: None,
         }
@@ -250,7 +272,10 @@ impl Model for ArmController {
         let gains = self.gains(Law::try_from(self.law).map_err(refusal)?)?;
         self.arm_law
             .as_mut()
-            .map_or(Ok(()), |arm_law| arm_law.tune(gains))
+            .map_or(Ok(()), |arm_law| {
+                arm_law.tune_joints(self.joint.gains(self.tau_max))?;
+                arm_law.tune(gains)
+            })
             .map_err(refusal)?;
         self.advise(log)
     }
@@ -305,7 +330,32 @@ impl ArmController {
                 hold_brake: self.hold_brake,
                 saturation_time: self.saturation_time,
             }),
+            space: match self.space {
+                TASK => Space::Task,
+                JOINT => Space::Joint,
+                other => {
+                    return Err(Refusal(format!(
+                        "space = {other}: expected 1 (task), 2 (joint)"
+                    )));
+                }
+            },
+            joint: self.joint()?,
         })
+    }
+
+    fn joint(&self) -> Result<JointParameters, Refusal> {
+        let joint = self.joint.parameters(&self.nominal, self.tau_max);
+        for (i, bounds) in (1..).zip(&joint.bounds) {
+            bounds.check(Some(i)).map_err(|error| {
+                refusal(renamed(error, |name| match name {
+                    "speed_max" => "joint.dq_n_max",
+                    "q_min" => "joint.q_n_min",
+                    "q_max" => "joint.q_n_max",
+                    other => other,
+                }))
+            })?;
+        }
+        Ok(joint)
     }
 
     fn bounds(&self, i: usize) -> Bounds {
@@ -410,6 +460,10 @@ impl ArmController {
 
     /// Sets `gain_warning` to what any axis is advised against, and says why when it becomes another one than 0.
     fn advise(&mut self, log: &mut Log<'_>) -> Result<(), Refusal> {
+        if self.space != TASK {
+            self.gain_warning = 0;
+            return Ok(());
+        }
         let settings = self.settings()?;
         let advice = self
             .gains(settings.law)?
@@ -427,6 +481,7 @@ impl ArmController {
         let Outputs {
             pose,
             outcome,
+            nominal,
             slowed,
             stiff_hand,
             ft,
@@ -453,6 +508,10 @@ impl ArmController {
         };
         self.ft.show(ft, &arm_law.bias());
         self.show_status(status);
+        self.q_n = nominal.q_n.into();
+        self.dq_n = nominal.dq_n.into();
+        self.e_q = nominal.e_nr.into();
+        self.M_n = std::array::from_fn(|i| nominal.M_n[(i / 3, i % 3)]);
         let ledger = arm_law.ledger();
         self.energy = Energy {
             H: ledger.H(),
@@ -487,28 +546,32 @@ fn or_none(limit: f64) -> f64 {
 
 /// A parameter error under the names of this interface.
 fn refusal(error: ParameterError) -> Refusal {
-    Refusal::new(match error {
+    Refusal::new(renamed(error, |name| match name {
+        "v_max" => "dq_max",
+        "a_max" => "ddq_max",
+        "speed_max" => "dp_n_max",
+        "q_min" => "p_n_min",
+        "q_max" => "p_n_max",
+        "M_n" => "Lambda_n",
+        "E_0" => "energy.E_0",
+        "dq_cutoff" => "dp_cutoff",
+        other => other,
+    }))
+}
+
+fn renamed(error: ParameterError, name_here: fn(&'static str) -> &'static str) -> ParameterError {
+    match error {
         ParameterError::OutOfRange {
             name,
             axis,
             value,
             expected,
         } => ParameterError::OutOfRange {
-            name: match name {
-                "v_max" => "dq_max",
-                "a_max" => "ddq_max",
-                "speed_max" => "dp_n_max",
-                "q_min" => "p_n_min",
-                "q_max" => "p_n_max",
-                "M_n" => "Lambda_n",
-                "E_0" => "energy.E_0",
-                "dq_cutoff" => "dp_cutoff",
-                other => other,
-            },
+            name: name_here(name),
             axis,
             value,
             expected,
         },
         other => other,
-    })
+    }
 }

@@ -259,6 +259,24 @@ const fn reason(diagnostic: Diagnostic, about: &'static str) -> Item {
     item(diagnostic.number(), diagnostic.name(), about)
 }
 
+/// The type of `space`.
+pub const SPACE: Enumeration = Enumeration {
+    name: "Space",
+    about: "Coordinates in which the nominal lives",
+    items: &[
+        item(
+            1,
+            "task",
+            "the handle's: a mass Lambda_n at the handle, with D_n, K, K_P, f_max (eq:obs_dyn_cart)",
+        ),
+        item(
+            2,
+            "joint",
+            "the joints': an arm of rigid links, nominal.*, with joint.D_n, joint.K, joint.K_P, tau_max (eq:obs_dyn)",
+        ),
+    ],
+};
+
 /// Smallest accepted sample period, gain, mass or limit, in SI units: what lies below is a mistake in a unit. The law
 /// itself asks for values greater than 0.
 const SMALLEST: f64 = 1e-6;
@@ -413,7 +431,7 @@ impl Declare for ArmController {
                 "Lightest effective mass that the robot shows along an axis, for gain_warning only",
             ),
             integer!(gain_warning).output(Discrete).initially_from(&["M_min", "Lambda_n[i]", "K[i]", "T"]).about(
-                "Gains that are accepted but probably not meant: 0 none, 1 K*T/M_min above 0.25, 2 a Lambda_n below M_min/10, 3 both",
+                "Gains in task space that are accepted but probably not meant: 0 none, 1 K*T/M_min above 0.25, 2 a Lambda_n below M_min/10, 3 both",
             ),
             boolean!(hold).input(Discrete).about(
                 "Whether the nominal stays where it is: the coupling then carries any load within f_max without drift",
@@ -655,6 +673,71 @@ impl Declare for ArmController {
                 .parameter(Fixed)
                 .at_least(0.0)
                 .about("For how long limits may act before diagnostic reports it; 0 = it does not"),
+            enumeration!(space, &SPACE).parameter(Fixed).about("Coordinates in which the nominal lives"),
+            real!(joint.D_n[3], unit::NEWTON_METRE_SECOND_PER_RADIAN)
+                .parameter(Tunable)
+                .at_least(0.0)
+                .about("Nominal damping of each joint in joint space (eq:nom_dyn)"),
+            real!(joint.K, unit::NEWTON_METRE_SECOND_PER_RADIAN).parameter(Tunable).at_least(SMALLEST).about(
+                "Control gain in joint space, 1/epsilon of the paper (eq:dob_input); one number for all joints, because with \
+                 different ones a free robot can be unstable",
+            ),
+            real!(joint.K_P[3], unit::PER_SECOND)
+                .parameter(Tunable)
+                .at_least(SMALLEST)
+                .about("Ratio of each joint's coupling spring to its damper in joint space (eq:dob_input)"),
+            real!(joint.dq_n_max[3], unit::RADIAN_PER_SECOND)
+                .parameter(Fixed)
+                .at_least(0.0)
+                .about("Largest speed of the nominal's joints in joint space; 0 = no limit"),
+            boolean!(joint.q_n_box)
+                .parameter(Fixed)
+                .about("Whether the nominal keeps within joint.q_n_min and joint.q_n_max in joint space"),
+            real!(joint.q_n_min[3], unit::RADIAN).parameter(Fixed).about("Least angles of the nominal's joints"),
+            real!(joint.q_n_max[3], unit::RADIAN).parameter(Fixed).about("Largest angles of the nominal's joints"),
+            real!(nominal.m[3], unit::KILOGRAM)
+                .parameter(Fixed)
+                .at_least(0.0)
+                .about("Mass of each link of the nominal arm, which has the lengths kinematics.* and no weight"),
+            real!(nominal.x[3], unit::METRE)
+                .parameter(Fixed)
+                .about("Centre of mass of each nominal link along it, from its joint's axis"),
+            real!(nominal.z[3], unit::METRE)
+                .parameter(Fixed)
+                .about("Centre of mass of each nominal link across it, upwards when it is level"),
+            real!(nominal.I_xx[3], unit::KILOGRAM_SQUARE_METRE)
+                .parameter(Fixed)
+                .at_least(0.0)
+                .about("Moment of inertia of each nominal link about x through its centre of mass"),
+            real!(nominal.I_yy[3], unit::KILOGRAM_SQUARE_METRE)
+                .parameter(Fixed)
+                .at_least(0.0)
+                .about("Moment of inertia of each nominal link about y through its centre of mass"),
+            real!(nominal.I_zz[3], unit::KILOGRAM_SQUARE_METRE)
+                .parameter(Fixed)
+                .at_least(0.0)
+                .about("Moment of inertia of each nominal link about z through its centre of mass"),
+            real!(nominal.I_xz[3], unit::KILOGRAM_SQUARE_METRE)
+                .parameter(Fixed)
+                .about("Element xz of each nominal link's inertia matrix, the negative product of inertia"),
+            real!(nominal.rotor[3], unit::KILOGRAM_SQUARE_METRE)
+                .parameter(Fixed)
+                .at_least(SMALLEST)
+                .about("Inertia of each nominal joint about its own axis, as the joint feels it"),
+            real!(M_n[9], unit::KILOGRAM_SQUARE_METRE)
+                .output(Discrete)
+                .initially_from(NOMINAL)
+                .about("Nominal mass matrix M_n(q), row by row; 0 in task space"),
+            real!(q_n[3], unit::RADIAN)
+                .output(Discrete)
+                .initially_from(&["q[i]"])
+                .about("Nominal joint angles (eq:obs_dyn); q in task space"),
+            real!(dq_n[3], unit::RADIAN_PER_SECOND)
+                .output(Discrete)
+                .about("Nominal joint velocities (eq:obs_dyn); 0 in task space"),
+            real!(e_q[3], unit::RADIAN)
+                .output(Discrete)
+                .about("Position error q_n - q of the joints, after the slip of passive_bounded; 0 in task space"),
         ],
     };
 }
@@ -666,4 +749,20 @@ const WHERE: &[&str] = &[
     "kinematics.L1",
     "kinematics.handle_x",
     "kinematics.handle_z",
+];
+
+/// What M_n depends on after initialization.
+const NOMINAL: &[&str] = &[
+    "q[i]",
+    "space",
+    "kinematics.A1",
+    "kinematics.L1",
+    "nominal.m[i]",
+    "nominal.x[i]",
+    "nominal.z[i]",
+    "nominal.I_xx[i]",
+    "nominal.I_yy[i]",
+    "nominal.I_zz[i]",
+    "nominal.I_xz[i]",
+    "nominal.rotor[i]",
 ];

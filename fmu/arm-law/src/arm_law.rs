@@ -2,16 +2,20 @@
 //!
 //! It knows no FMI: the FMU ArmController and the C library are shells around it.
 
+use crate::form::Form;
+use crate::joint_space::{JointGains, JointParameters, Nominal};
 use crate::kinematics::{Kinematics, Pose};
 use crate::limits::Limits;
 use crate::singularity::Singularity;
 use crate::stiff_hand::Detectors;
 use crate::supervision::{self, Demand, Report, Status, Supervisor};
-use crate::task_space::{Outcome, TaskSpace};
+use crate::task_space::Outcome;
 use crate::wrench::{Conditioned, Conditioner, Frame, Sample, Sensor, Wrench};
 use admittance::hand::StiffHand;
 use admittance::{Bounds, Gains, Ledger, ParameterError, Reach, Real, Request, Settings, real};
 use nalgebra::Vector3;
+
+pub use crate::form::Space;
 
 /// What stays fixed while the law is in use, but for the gains.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -39,6 +43,10 @@ pub struct Parameters {
     pub sensor: Sensor,
     /// Supervision; `None`: `engage` alone decides.
     pub supervision: Option<supervision::Parameters>,
+    /// The coordinates in which the nominal lives: in task space with `gains` and `bounds`, in joint space with `joint`.
+    pub space: Space,
+    /// The nominal in joint space.
+    pub joint: JointParameters,
 }
 
 /// What is sensed and asked for at a tick.
@@ -95,6 +103,8 @@ pub struct Outputs {
     pub pose: Pose,
     /// What the law did.
     pub outcome: Outcome,
+    /// The nominal in joint coordinates; in task space, where it has none, the robot at rest, M_n 0.
+    pub nominal: Nominal,
     /// Whether the nominal is slowed before a singularity.
     pub slowed: bool,
     /// What is known of a stiff hand, after this tick.
@@ -118,12 +128,12 @@ pub struct ArmLaw {
     stiff_hand: Detectors,
     frame: Frame,
     conditioner: Conditioner,
-    task_space: TaskSpace,
+    form: Form,
     supervisor: Option<Supervisor>,
     /// the joint angles of the last tick that had a result, rad
     q: Vector3<Real>,
-    /// the nominal's velocity at the last tick at which it was free, m/s
-    dp_n: Vector3<Real>,
+    /// the nominal's velocity at the last tick at which it was free, in its own coordinates: m/s or rad/s
+    v_n: Vector3<Real>,
 }
 
 impl ArmLaw {
@@ -135,6 +145,8 @@ impl ArmLaw {
         parameters.limits.check()?;
         parameters.kinematics.check()?;
         parameters.singularity.check()?;
+        parameters.joint.arm.check()?;
+        parameters.joint.gains.check()?;
         parameters.frame.check()?;
         Ok(Self {
             kinematics: parameters.kinematics,
@@ -142,28 +154,46 @@ impl ArmLaw {
             stiff_hand: Detectors::new(parameters.stiff_hand, parameters.settings.T)?,
             frame: parameters.frame,
             conditioner: Conditioner::new(parameters.sensor, parameters.settings.T)?,
-            task_space: TaskSpace::new(
-                parameters.settings,
-                parameters.gains,
-                parameters.bounds,
-                parameters.reach,
-                parameters.limits,
-            )?,
+            form: match parameters.space {
+                Space::Task => Form::task(
+                    parameters.settings,
+                    parameters.gains,
+                    parameters.bounds,
+                    parameters.reach,
+                    parameters.limits,
+                )?,
+                Space::Joint => Form::joint(
+                    parameters.settings,
+                    &parameters.joint,
+                    parameters.kinematics,
+                    parameters.reach,
+                    parameters.limits,
+                )?,
+            },
             supervisor: parameters
                 .supervision
                 .map(|supervision| Supervisor::new(&supervision, parameters.settings.T))
                 .transpose()?,
             q: Vector3::zeros(),
-            dp_n: Vector3::zeros(),
+            v_n: Vector3::zeros(),
         })
     }
 
     /// Other gains: on a straight line over the tuning time, each step taken over so that the stored energy does not rise.
+    /// In joint space they are checked and have no effect.
     ///
     /// # Errors
     /// The first gain out of its range; the gains stay as they were.
     pub fn tune(&mut self, gains: [Gains; 3]) -> Result<(), ParameterError> {
-        self.task_space.tune(gains)
+        self.form.tune(gains)
+    }
+
+    /// Other gains of the joints, likewise. In task space they are checked and have no effect.
+    ///
+    /// # Errors
+    /// The first gain out of its range; the gains stay as they were.
+    pub fn tune_joints(&mut self, gains: JointGains) -> Result<(), ParameterError> {
+        self.form.tune_joints(gains)
     }
 
     /// One tick.
@@ -237,8 +267,10 @@ impl ArmLaw {
     fn abandon(&mut self, ft: Conditioned) -> Outputs {
         let pose = self.kinematics.at(&self.q);
         self.stiff_hand = self.stiff_hand.at_rest();
+        let (outcome, nominal) = self.form.abandon(&pose, &self.q);
         Outputs {
-            outcome: self.task_space.abandon(&pose),
+            outcome,
+            nominal,
             pose,
             slowed: false,
             stiff_hand: self.stiff_hand,
@@ -256,8 +288,12 @@ impl ArmLaw {
         ft: Conditioned,
         demand: Demand,
     ) -> Result<Outputs, NotFinite> {
-        let damping = self.singularity.damping(pose.sigma_min);
-        let outcome = match demand {
+        let damping = if self.form.knows_singularities() {
+            self.singularity.damping(pose.sigma_min)
+        } else {
+            0.0
+        };
+        let (outcome, nominal) = match demand {
             Demand::Run { authority, freedom } => {
                 self.stiff_hand = self.stiff_hand.sensed(&pose.p, &ft.hand.force);
                 let request = Request {
@@ -266,11 +302,11 @@ impl ArmLaw {
                     damping: Vector3::repeat(damping) + self.stiff_hand.D(),
                     speed: self.speed(freedom),
                 };
-                self.task_space.step(pose, q, &ft.hand.force, &request)
+                self.form.step(pose, q, &ft.hand.force, &request)
             }
             Demand::Rest => {
                 self.stiff_hand = self.stiff_hand.at_rest();
-                self.task_space.rest(pose, q)
+                self.form.rest(pose, q)
             }
         };
         if !(outcome.is_finite() && self.ledger().G().is_finite()) {
@@ -278,11 +314,12 @@ impl ArmLaw {
         }
         self.q = *q;
         if !matches!(demand, Demand::Run { freedom, .. } if freedom < 1.0) {
-            self.dp_n = outcome.dp_n;
+            self.v_n = self.form.velocity(&outcome, &nominal);
         }
         Ok(Outputs {
             pose: *pose,
             outcome,
+            nominal,
             slowed: demand != Demand::Rest && damping > 0.0,
             stiff_hand: self.stiff_hand,
             ft,
@@ -290,10 +327,10 @@ impl ArmLaw {
         })
     }
 
-    /// Speed along each axis that a nominal of this `freedom` may have, m/s: it brakes in equal steps.
+    /// Speed in each of its coordinates that a nominal of this `freedom` may have, m/s or rad/s: it brakes in equal steps.
     fn speed(&self, freedom: Real) -> Vector3<Real> {
         if freedom < 1.0 {
-            self.dp_n.map(|v| real::abs(v) * freedom)
+            self.v_n.map(|v| real::abs(v) * freedom)
         } else {
             Vector3::repeat(Real::INFINITY)
         }
@@ -325,6 +362,6 @@ impl ArmLaw {
 
     /// Energy stored and created, as of the last tick; the work is that at the joints.
     pub fn ledger(&self) -> &Ledger<3> {
-        self.task_space.ledger()
+        self.form.ledger()
     }
 }

@@ -2,6 +2,7 @@
 //!
 //! | module | what |
 //! |---|---|
+//! | [`form`] | the coordinates in which the nominal lives, and the law in them |
 //! | [`joint_space`] | the law in joint space, with M_n(q) and C_n(q, dq) |
 //! | [`arm_law`] | the complete law: from what is sensed at a tick to the torques |
 //! | [`kinematics`] | position, Jacobian, smallest singular value and frame of link 3 |
@@ -24,6 +25,7 @@
 )]
 
 pub mod arm_law;
+pub mod form;
 pub mod joint_space;
 pub mod kinematics;
 pub mod limits;

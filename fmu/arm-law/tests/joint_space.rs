@@ -1,9 +1,10 @@
 //! The law in joint space: against the law of one axis, its own energy formula, and the continuous equations.
 #![allow(non_snake_case, reason = "the paper's symbols")]
 
+use admittance::ledger::Stored;
 use admittance::{Admittance, Gains, Law, Ledger, Reach, Real, Settings};
 use arm_law::ParameterError;
-use arm_law::joint_space::{Committed, JointGains, Joints};
+use arm_law::joint_space::{Committed, JointGains, JointRequest, Joints};
 use arm_law::kinematics::Kinematics;
 use arm_law::nominal::{Link, NominalArm};
 use nalgebra::Vector3;
@@ -50,7 +51,7 @@ impl Run {
         let settings = *self.joints.settings();
         let sensed = self.joints.sense(q);
         let H = sensed.stored(&settings);
-        let proposal = sensed.propose(tau_h, &settings);
+        let proposal = sensed.propose(tau_h, &JointRequest::default(), &settings);
         let tau = proposal.tau(&settings) * s;
         let law = self.joints.commit(proposal, &tau);
         self.ledger = self.ledger.settled(H, q).opened(&tau, law.supplied);
@@ -217,7 +218,7 @@ proptest! {
     /// Other gains take over without adding energy, also where they widen the limits of springs that slip.
     #[test]
     fn gains_that_take_over_do_not_raise_the_stored_energy(from in gains(), to in gains(), tau_h in vectors(40.0), number in 2..5) {
-        let settings = settings(Law::try_from(number).unwrap());
+        let settings = Settings { tuning_time: 0.0, ..settings(Law::try_from(number).unwrap()) };
         let mut run = Run::new(settings, swinging(), from);
         let q = Vector3::from(START);
         for _ in 0..50 {

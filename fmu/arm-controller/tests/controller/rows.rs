@@ -3,7 +3,7 @@
 use crate::ArmController;
 use admittance::Law;
 use arm_controller::rows::{
-    DIAGNOSTIC, FAULT, FRAME, LAW, SOURCE, STATE, TARE_FAILURE, TARE_STATE, TORQUE_LIMITING,
+    DIAGNOSTIC, FAULT, FRAME, LAW, SOURCE, SPACE, STATE, TARE_FAILURE, TARE_STATE, TORQUE_LIMITING,
 };
 use arm_law::supervision::{Diagnostic, State};
 use arm_law::wrench::{Fault, TareFailure, TareState};
@@ -93,8 +93,9 @@ fn the_names_that_others_rely_on_are_there() {
 fn gains_and_f_max_are_tunable_and_the_rest_is_fixed() {
     for variable in ArmController::DESCRIPTION.variables {
         if variable.causality == Causality::Parameter {
-            let gain =
-                ["Lambda_n[i]", "D_n[i]", "K[i]", "K_P[i]", "f_max[i]"].contains(&variable.name);
+            let task = ["Lambda_n[i]", "D_n[i]", "K[i]", "K_P[i]", "f_max[i]"];
+            let joint = ["joint.D_n[i]", "joint.K", "joint.K_P[i]"];
+            let gain = task.contains(&variable.name) || joint.contains(&variable.name);
             let expected = if gain {
                 Variability::Tunable
             } else {
@@ -121,6 +122,7 @@ fn enumerations_have_the_numbers_and_names_that_the_model_knows() {
     );
     assert_eq!(items(TORQUE_LIMITING), [(1, "scale"), (2, "clip")]);
     assert_eq!(items(FRAME), [(1, "base"), (2, "sensor")]);
+    assert_eq!(items(SPACE), [(1, "task"), (2, "joint")]);
     assert_eq!(items(SOURCE), [(1, "f_h"), (2, "wrench")]);
     let faults = Fault::ALL.map(|fault| (fault.number(), fault.name()));
     assert_eq!(items(FAULT)[1..], faults);

@@ -5,7 +5,7 @@
 //! joint: the springs' energy ½ k eᵀ K_P e is a sum over joints whatever M_n is.
 
 use admittance::parameters::{LIMIT, NOT_NEGATIVE, POSITIVE, check};
-use admittance::{ParameterError, Real};
+use admittance::{Gains, ParameterError, Real};
 use nalgebra::Vector3;
 
 /// What may be changed during a run.
@@ -35,6 +35,29 @@ impl Default for JointGains {
 }
 
 impl JointGains {
+    /// These gains one tick further on the straight way to `wanted`, of which `remaining` ticks are left (at least 1).
+    #[must_use]
+    pub fn toward(&self, wanted: &Self, remaining: u32) -> Self {
+        let joints = [0, 1, 2].map(|i| self.of(i).toward(&wanted.of(i), remaining));
+        Self {
+            D_n: Vector3::from(joints.map(|joint| joint.D_n)),
+            K: joints[0].K,
+            K_P: Vector3::from(joints.map(|joint| joint.K_P)),
+            tau_max: Vector3::from(joints.map(|joint| joint.f_max)),
+        }
+    }
+
+    /// Joint `i` (from 0) for the rules of one axis. They look at ratios of masses, and M_n does not change with the gains.
+    pub(super) fn of(&self, i: usize) -> Gains {
+        Gains {
+            M_n: 1.0,
+            D_n: self.D_n[i],
+            K: self.K,
+            K_P: self.K_P[i],
+            f_max: self.tau_max[i],
+        }
+    }
+
     /// Whether a law can be built with them.
     ///
     /// # Errors

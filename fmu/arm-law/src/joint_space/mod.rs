@@ -29,13 +29,18 @@
 //! |---|---|
 //! | [`gains`] | D_n, K, K_P, tau_max; why K is one number |
 //! | [`midpoint`] | the arithmetic of one sample |
+//! | [`boxed`] | its linear system within the nominal's limits |
 //! | [`stored`] | the springs' energy; gain changes that do not raise it |
 //! | [`joints`] | the law between two ticks |
+//! | [`law`] | a tick with its limits, ledger and budget |
 
+pub mod boxed;
 pub mod gains;
 pub mod joints;
+pub mod law;
 pub mod midpoint;
 pub mod stored;
 
 pub use gains::JointGains;
-pub use joints::{Committed, Joints, Proposal, Sensed};
+pub use joints::{Committed, JointRequest, Joints, Proposal, Sensed};
+pub use law::{JointParameters, JointSpace, Nominal};
