@@ -278,7 +278,7 @@ fn a_value_that_only_the_model_can_object_to_is_refused_and_everything_set_with_
 
 #[test]
 fn laws_that_are_not_offered_are_refused_at_the_end_of_initialization_and_can_be_corrected() {
-    let fmu = Fmu::open("TestbedController");
+    let fmu = Fmu::open("ArmController");
     let law = fmu.reference("law");
     for item in [5, 6] {
         let instance = fmu.instantiate();
@@ -292,6 +292,6 @@ fn laws_that_are_not_offered_are_refused_at_the_end_of_initialization_and_can_be
         );
         assert_eq!(instance.set_integer(&[law], &[4]), Status::OK);
         assert_eq!(instance.exit_initialization_mode(), Status::OK);
-        assert_eq!(instance.step(0.0, 0.002), Status::OK);
+        assert_eq!(instance.step(0.0, 0.001), Status::OK);
     }
 }
