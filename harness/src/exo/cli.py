@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 from math import isfinite
 from pathlib import Path
 from typing import Annotated
@@ -17,6 +18,9 @@ from exo import experiment, report, results, scenario, tool, validate
 from exo.errors import ExoError, ScenarioError
 from exo.experiment import Experiment
 from exo.fmu import find_fmu_dir
+from exo.tuning import guide as tuning
+from exo.tuning import show
+from exo.tuning.machine import Gains, Machine
 
 app = typer.Typer(no_args_is_help=True, add_completion=False, pretty_exceptions_enable=False, help=__doc__)
 console = Console(highlight=False, soft_wrap=True)
@@ -153,6 +157,45 @@ def parse_angles(text: str) -> list[float]:
     if len(angles) != 3 or not all(isfinite(angle) for angle in angles):
         raise ScenarioError(f"--mount {text}: expected roll,pitch,yaw in rad")
     return angles
+
+
+@app.command()
+def tune(
+    *,
+    T: Annotated[float, typer.Option("--T", help="Sample period, s.")],
+    M_min: Annotated[float, typer.Option("--M-min", help="Lightest effective mass, kg.")],
+    M_max: Annotated[float, typer.Option("--M-max", help="Heaviest effective mass, kg.")],
+    delay: Annotated[int, typer.Option("--delay", help="Samples by which the force comes late: 0 or 1.")] = 0,
+    k_h: Annotated[float, typer.Option("--k-h", help="Stiffness of the hand, N/m.")] = 0.0,
+    b_h: Annotated[float, typer.Option("--b-h", help="Damping of the hand, N·s/m.")] = 0.0,
+    hand_delay: Annotated[float, typer.Option("--hand-delay", help="Reflex delay of the hand, s.")] = 0.0,
+    K: Annotated[float | None, typer.Option("--K", help="Control gain, N·s/m; else the recommended one.")] = None,
+    K_P: Annotated[float, typer.Option("--K-P", help="Spring to damper of the coupling, 1/s.")] = 10.0,
+    M_n: Annotated[float | None, typer.Option("--M-n", help="Nominal mass, kg; else M-min.")] = None,
+    D_n: Annotated[float | None, typer.Option("--D-n", help="Nominal damping, N·s/m; else M-n/(1 s).")] = None,
+    alpha: Annotated[float, typer.Option("--alpha", help="Damper of the reaction, N·s/m.")] = 1.0,
+    substep: Annotated[float, typer.Option("--substep", help="Substep of a simulated mass, s; 0 = exact mass.")] = 0.0,
+    frequency: Annotated[float, typer.Option("--frequency", help="Where the error is stated, Hz.")] = 0.4,
+    out: Out = Path("results/tune"),
+) -> None:
+    """Prints which gains keep the sampled loop stable, with margins; exit code 1 when the given ones do not."""
+    with sentences():
+        machine = Machine(
+            T=T, delay=delay, M_min=M_min, M_max=M_max, k_h=k_h, b_h=b_h, hand_delay=hand_delay, substep=substep
+        )
+        M_n = M_min if M_n is None else M_n
+        D_n = M_n if D_n is None else D_n
+        # Where the hand leaves no K to recommend, the advised bound is judged.
+        gains = Gains(M_n=M_n, D_n=D_n, K=tuning.KT_OVER_M_MAX * M_min / T if K is None else K, K_P=K_P, alpha=alpha)
+        if K is None:
+            gains = replace(gains, K=tuning.recommended_gain(machine=machine, gains=gains) or gains.K)
+        answer = tuning.guide(machine=machine, gains=gains, frequency=frequency)
+        written = show.write(guide=answer, out=out)
+    console.print(show.by_mass(answer))
+    console.print(show.LEGEND.format(frequency=frequency), markup=False)
+    console.print(show.summary(answer))
+    console.print(f"written: {', '.join(str(path) for path in written)}", markup=False)
+    raise typer.Exit(0 if answer.stable else 1)
 
 
 def parse_settings(settings: list[str]) -> dict[str, str]:

@@ -104,6 +104,88 @@ def error_at_a_wall(
     return curve
 
 
+@dataclass(frozen=True, kw_only=True)
+class Hand:
+    """A hand that holds the robot like a spring and a damper: f_h = −k_h q(t − delay) − b_h dq(t − delay).
+
+    k_h in N/m, b_h in N·s/m, delay in s. Sampled at the tick and held over it; between ticks of the past the motion is
+    taken linear, as the operator's FMU takes it.
+    """
+
+    k_h: float = 0.0
+    b_h: float = 0.0
+    delay: float = 0.0
+
+
+@dataclass(frozen=True, kw_only=True)
+class Opened:
+    """Law and robot over one tick: x⁺ = A x + B u + F f_h, τ_a = C x + G f_h.
+
+    x = (q, dq, q_k − q_{k−1}, e, v_n); u is the force that reaches the robot: τ_a, or that of an earlier tick.
+    """
+
+    A: Array
+    B: Array
+    F: Array
+    C: Array
+    G: float
+
+
+def opened(*, loop: Loop) -> Opened:
+    """The implicit midpoint law of SPEC.md section 1 and a free mass without friction.
+
+    The mass takes its n substeps by backward Euler, as `sampled_tick`; a substep of 0 stands for the exact mass
+    (n → ∞).
+    """
+    T, K_P, alpha = loop.T, loop.K_P, loop.alpha
+    q, v, moved, e, v_n = np.eye(5)
+    c = 1.0 + K_P * T / 2.0
+    inertia, dq = 2.0 * loop.M_n / T, moved / T
+    reluctance = inertia + loop.D_n + alpha * c
+    v_m, v_m_per_force = (inertia * v_n + alpha * (c * dq - K_P * e)) / reluctance, 1.0 / reluctance
+    C, G = loop.K * (c * (v_m - dq) + K_P * e), loop.K * c * v_m_per_force
+    n = np.ceil(T / loop.substep - 1e-6) if loop.substep > 0.0 else np.inf
+    travel = 0.5 * (1.0 + 1.0 / n) * T**2 / loop.M
+    push = np.array([travel, T / loop.M, travel, -travel, 0.0])
+    return Opened(
+        A=np.array([q + T * v, v, T * v, e + T * v_m - T * v, 2.0 * v_m - v_n]),
+        B=push,
+        F=push + np.array([0.0, 0.0, 0.0, T * v_m_per_force, 2.0 * v_m_per_force]),
+        C=C,
+        G=G,
+    )
+
+
+def closed_loop(*, loop: Loop, hand: Hand = Hand(), delay: int = 0) -> Array:
+    """The map of one tick with the hand on the robot and τ_a arriving `delay` ticks late.
+
+    Its state is that of `opened`, then the forces under way, then those that the hand is still to exert. Without a
+    spring in the hand nothing depends on q, and it is left out: its eigenvalue 1 says only that the mass may stand
+    anywhere.
+    """
+    law, late = opened(loop=loop), hand.delay / loop.T
+    whole = int(np.floor(late + 1e-9))
+    share = max(late - whole, 0.0) if late - whole > 1e-9 else 0.0
+    reflex = whole + (1 if share else 0)
+
+    def tick(state: Array) -> Array:
+        x, under_way, meant = np.split(state, [5, 5 + delay])
+        felt = [-hand.k_h * x[0] - hand.b_h * x[1], *meant]
+        f_h = (1.0 - share) * felt[whole] + share * felt[reflex]
+        forces = [law.C @ x + law.G * f_h, *under_way]
+        x_after = law.A @ x + law.B * forces[delay] + law.F * f_h
+        return np.concatenate([x_after, forces[:delay], felt[:reflex]])
+
+    matrix = np.column_stack([tick(unit) for unit in np.eye(5 + delay + reflex)])
+    return matrix if hand.k_h else matrix[1:, 1:]
+
+
+def growth_rate(*, loop: Loop, hand: Hand = Hand(), delay: int = 0) -> float:
+    """Growth σ (1/s) of the slowest mode, exp(σ t), of `closed_loop`: ln|λ|/T of its largest eigenvalue λ."""
+    eigenvalues = np.linalg.eigvals(closed_loop(loop=loop, hand=hand, delay=delay))
+    return float(np.log(np.max(np.abs(eigenvalues))) / loop.T)
+
+
 def hand_growth_rate(*, loop: Loop, k_h: float) -> float:
     """Growth σ (1/s) of the slowest mode, exp(σ t), of the sampled loop with a hand of stiffness k_h (N/m), one axis.
 
@@ -111,27 +193,6 @@ def hand_growth_rate(*, loop: Loop, k_h: float) -> float:
         M_n ddq_n = −D_n dq_n − α y − k_h q           eq:obs_dyn
         y = de + K_P e                                eq:dob_input
 
-    From the largest eigenvalue λ of the map of one tick, σ = ln|λ|/T. The hand is no passive load: it acts on the
-    nominal as well, and (f_h ; dq) alone is no passive port when M_n < M.
+    The hand is no passive load: it acts on the nominal as well, and (f_h ; dq) alone is no passive port when M_n < M.
     """
-    tick = np.column_stack([_tick_with_hand(loop, k_h, unit) for unit in np.eye(5)])
-    return float(np.log(np.max(np.abs(np.linalg.eigvals(tick)))) / loop.T)
-
-
-def _tick_with_hand(loop: Loop, k_h: float, state: Array) -> Array:
-    """One tick of q, dq, the last tick's q, e and v_n: the implicit midpoint of SPEC.md section 1, then the mass by
-    backward Euler in its substeps."""
-    q, dq, q_before, e, v_n = state
-    T, K_P, alpha, f_h = loop.T, loop.K_P, loop.alpha, -k_h * q
-    sensed = (q - q_before) / T
-    inertia = 2.0 * loop.M_n / T
-    damping = loop.D_n + alpha * (1.0 + K_P * T / 2.0)
-    v_m = (inertia * v_n + f_h + alpha * (sensed + K_P * T * sensed / 2.0 - K_P * e)) / (inertia + damping)
-    y = (v_m - sensed) + K_P * (e + T * (v_m - sensed) / 2.0)
-    q_n = q + e + T * v_m
-    q_after = q
-    substeps = max(1, round(T / loop.substep))
-    for _ in range(substeps):
-        dq += (loop.K * y + f_h) / loop.M * T / substeps
-        q_after += dq * T / substeps
-    return np.array([q_after, dq, q, q_n - q_after, 2.0 * v_m - v_n])
+    return growth_rate(loop=loop, hand=Hand(k_h=k_h))

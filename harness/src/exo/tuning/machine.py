@@ -1,0 +1,89 @@
+"""What is tuned: a machine, who holds it, and the gains."""
+
+import math
+from dataclasses import dataclass, fields
+
+import numpy as np
+
+from exo.errors import ExoError
+from exo.theory import Hand, Loop
+
+#: Masses between the lightest and the heaviest at which the loop is judged.
+MASSES = 9
+#: What may be 0; everything else must be greater.
+MAY_BE_ZERO = ("k_h", "b_h", "hand_delay", "substep", "D_n", "alpha", "delay")
+
+
+class Checked:
+    """Refuses what is not finite or out of its range, by name."""
+
+    def __post_init__(self) -> None:
+        for field in fields(self):  # type: ignore[arg-type]
+            value, zero = getattr(self, field.name), field.name in MAY_BE_ZERO
+            if not math.isfinite(value) or value < 0.0 or (value == 0.0 and not zero):
+                expected = "not less than 0" if zero else "greater than 0"
+                raise ExoError(f"{field.name} = {value:g}: expected a finite value {expected}")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Machine(Checked):
+    """A robot along one axis, and the hand on it.
+
+    T in s; delay of the force in samples; effective masses M_min ≤ M_max in kg; k_h in N/m, b_h in N·s/m, hand_delay in
+    s; substep of the simulated plant in s, 0 for the exact mass.
+    """
+
+    T: float
+    delay: int = 0
+    M_min: float
+    M_max: float
+    k_h: float = 0.0
+    b_h: float = 0.0
+    hand_delay: float = 0.0
+    substep: float = 0.0
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if self.M_max < self.M_min:
+            raise ExoError(f"M_max = {self.M_max:g}: expected at least M_min = {self.M_min:g}")
+        if self.delay not in (0, 1):
+            raise ExoError(f"delay = {self.delay}: expected 0 or 1")
+        if self.hand_delay > 1.0:
+            raise ExoError(f"hand_delay = {self.hand_delay:g}: expected at most 1 s")
+
+    @property
+    def hand(self) -> Hand:
+        """The hand."""
+        return Hand(k_h=self.k_h, b_h=self.b_h, delay=self.hand_delay)
+
+    @property
+    def masses(self) -> list[float]:
+        """Masses at which the loop is judged, from the lightest to the heaviest."""
+        if self.M_min == self.M_max:
+            return [self.M_min]
+        return [float(M) for M in np.geomspace(self.M_min, self.M_max, MASSES)]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Gains(Checked):
+    """Gains of one axis: M_n in kg, D_n, K and alpha in N·s/m, K_P in 1/s."""
+
+    M_n: float
+    D_n: float
+    K: float
+    K_P: float
+    alpha: float = 1.0
+
+
+def loop(*, machine: Machine, gains: Gains, M: float) -> Loop:
+    """The loop at the mass M (kg)."""
+    return Loop(
+        M=M,
+        M_n=gains.M_n,
+        D_n=gains.D_n,
+        K=gains.K,
+        K_P=gains.K_P,
+        alpha=gains.alpha,
+        T=machine.T,
+        substep=machine.substep,
+    )
