@@ -17,6 +17,8 @@ from exo import forms, theory
 from exo.errors import ScenarioError, close_matches
 from exo.profile import SAME_INSTANT
 from exo.recording import Recording
+from exo.tuning import region
+from exo.tuning.machine import Gains, Machine
 
 Function = Callable[..., float]
 REGISTRY: dict[str, Function] = {}
@@ -352,6 +354,50 @@ def loop_of(run: Recording, *, controller: str, plant: str) -> theory.Loop:
     names = {name: f"{controller}.{name}" for name in ("M_n", "D_n", "K", "K_P", "alpha", "T")}
     names |= {"M": f"{plant}.M", "substep": f"{plant}.substep"}
     return theory.Loop(**{name: run.parameter(key) for name, key in names.items()})
+
+
+def machine_of(run: Recording) -> Machine:
+    """The frictionless testbed and the hand on it, as the FMUs held them."""
+    return Machine(
+        T=run.parameter("controller.T"),
+        delay=int(run.parameter("controller.delay")),
+        M_min=run.parameter("plant.M"),
+        M_max=run.parameter("plant.M"),
+        k_h=run.parameter("operator.k_h"),
+        b_h=run.parameter("operator.b_h"),
+        hand_delay=run.parameter("operator.delay"),
+        substep=run.parameter("plant.substep"),
+    )
+
+
+@metric
+def tick_growth(run: Recording, *, column: str, after: float, before: float) -> float:
+    """σ = ln|λ|/T (1/s) of the larger of two modes: x_{k+2} = a x_{k+1} + b x_k over the window by least squares. It
+    also sees what changes its sign from tick to tick, and what does not swing."""
+    x = _values(run, column, after, before)
+    x = x / np.max(np.abs(x))
+    (a, b), *_ = np.linalg.lstsq(np.column_stack([x[1:-1], x[:-2]]), x[2:], rcond=None)
+    return float(np.log(np.max(np.abs(np.roots([1.0, -a, -b])))) / run.step)
+
+
+@metric
+def tick_growth_error(run: Recording, *, column: str, after: float, before: float) -> float:
+    """Distance of `tick_growth` from the closed form's σ, as a share of it. Components: controller, plant, operator."""
+    machine = machine_of(run)
+    loop = loop_of(run, controller="controller", plant="plant")
+    expected = theory.growth_rate(loop=loop, hand=machine.hand, delay=machine.delay)
+    return abs(tick_growth(run, column=column, after=after, before=before) / expected - 1.0)
+
+
+@metric
+def boundary_share(run: Recording) -> float:
+    """The hand's stiffness over the predicted limit; K over its limit where there is no hand."""
+    machine = machine_of(run)
+    gains = Gains(**{name: run.parameter(f"controller.{name}") for name in ("M_n", "D_n", "K", "K_P", "alpha")})
+    if machine.k_h:
+        return machine.k_h / region.hand_limit(machine=machine, gains=gains, M=machine.M_min)
+    interval = region.gain_interval(machine=machine, gains=gains, M=machine.M_min)
+    return gains.K / interval.high if interval else math.nan
 
 
 @metric

@@ -76,7 +76,7 @@ class Guide:
 
 def recommended_gain(*, machine: Machine, gains: Gains) -> float | None:
     """The largest K (N·s/m) within K T/M_min = 0.25 that is `MARGIN` below the limit at every mass, with and without
-    the hand; None if the hand leaves no K. The error falls as 1/K, so the largest one is the best."""
+    the hand; None if the hand leaves no K. The error falls as 1/K, down to what sampling leaves of it."""
     highest = KT_OVER_M_MAX * machine.M_min / machine.T
     lowest = 0.0
     for M in machine.masses:
