@@ -45,6 +45,17 @@ def test_max_abs_sees_negative_peaks() -> None:
     assert metrics.max_abs(recording(time=TIME, x=-TIME), column="x") == pytest.approx(9.99)
 
 
+def test_minimum_is_the_least_value_of_the_window() -> None:
+    run = recording(time=TIME, x=-TIME)
+    assert metrics.minimum(run, column="x", before=3.0) == pytest.approx(-2.99)
+
+
+def test_max_abs_while_looks_where_the_flag_is_set_and_is_nan_where_it_never_is() -> None:
+    run = recording(time=TIME, x=-TIME, flag=TIME < 2.005, never=np.zeros(1000))
+    assert metrics.max_abs_while(run, column="x", flag="flag") == pytest.approx(2.0)
+    assert math.isnan(metrics.max_abs_while(run, column="x", flag="never"))
+
+
 def test_lowest_change_is_negative_once_the_column_falls_below_its_start() -> None:
     column = np.full(1000, 10.0)
     assert metrics.lowest_change(recording(time=TIME, E=column), column="E") == 0.0

@@ -67,6 +67,12 @@ def maximum(run: Recording, *, column: str, after: float | None = None, before: 
 
 
 @metric
+def minimum(run: Recording, *, column: str, after: float | None = None, before: float | None = None) -> float:
+    """Least value."""
+    return float(np.min(_values(run, column, after, before)))
+
+
+@metric
 def max_abs(run: Recording, *, column: str, after: float | None = None, before: float | None = None) -> float:
     """Largest magnitude."""
     return float(np.max(np.abs(_values(run, column, after, before))))
@@ -151,6 +157,13 @@ def hand_growth_error(
 def lowest_change(run: Recording, *, column: str) -> float:
     """min x − x(0): below zero when the column ever falls under its start."""
     return float(np.min(run[column]) - run[column][0])
+
+
+@metric
+def max_abs_while(run: Recording, *, column: str, flag: str) -> float:
+    """Largest magnitude at the ticks at which a Boolean is true; NaN when it never is."""
+    values = run[column][run[flag] > 0.5]
+    return float(np.max(np.abs(values))) if values.size else math.nan
 
 
 @metric
