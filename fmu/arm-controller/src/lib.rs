@@ -25,6 +25,8 @@
 //! 3. tau_a = Jᵀ f_a, within ±tau_max: [`arm_law::limits`]. What the limits leave is what the nominal of laws 3 and 4 feels.
 //! 4. The ledger counts the work that tau_a does at the joints: [`arm_law::task_space`].
 //!
+//! Whether the law runs at all, and with which authority, `engage` says, or [`arm_law::supervision`] if `supervision` is on.
+//!
 //! | variable | symbol | unit | what |
 //! |---|---|---|---|
 //! | `q` | q | rad | joint angles: yaw, shoulder pitch, elbow pitch; positive pitch lifts |
