@@ -250,7 +250,7 @@ fn bounded_creates_no_energy_under_smooth_motion_while_limited() {
         }
         assert!(limited > 5_000, "{limited}");
         // Starting to move within a sample, Δv = 5 rad/s at most on each of three joints, costs k T Δv²/4 each.
-        let begin = 3.0 * 200.0 * T * 25.0 / 4.0;
+        let begin = 3.0 * gains.K * T * 25.0 / 4.0;
         assert!(most < begin, "seed {seed}: G reaches {most} J");
     }
 }

@@ -235,6 +235,16 @@ def drift_over_prediction(
 
 
 @metric
+def joint_drift_over_prediction(run: Recording, *, controller: str, joint: int, moving: tuple[float, float]) -> float:
+    """Velocity of a joint over `moving` (s, s) divided by −α τ_a/(K D_n), τ_a its mean meanwhile: what eq:obs_dyn says
+    of a nominal in joint space on which nothing acts but the reaction of a constant load."""
+    K, D_n = run.parameter(f"{controller}.joint.K"), run.parameter(f"{controller}.joint.D_n[{joint}]")
+    tau_a = np.mean(_values(run, f"{controller}.tau_a[{joint}]", *moving))
+    predicted = -run.parameter(f"{controller}.alpha") * tau_a / (K * D_n)
+    return mean_rate(run, column=f"{controller}.q[{joint}]", first=moving[0], last=moving[1]) / float(predicted)
+
+
+@metric
 def bond_breaks(run: Recording, *, attached: str, vacuum: str) -> float:
     """How often a held payload was lost while the vacuum was on."""
     held = run[attached]

@@ -23,11 +23,12 @@ pub struct JointGains {
 }
 
 impl Default for JointGains {
-    /// About what the task-space gains (1000 N·s/m, 20 N·s/m) are at the start pose, 0.44 m before the shoulder.
+    /// About the task-space gains (1000 N·s/m, 20 N·s/m) at the start pose: seen from the handle, D_n/(JJᵀ)_zz is 15 N·s/m
+    /// and K/(JJᵀ)_zz 1500 N·s/m. The unit damper alpha is then 3.7 N·s/m, so a load sinks faster than at the handle.
     fn default() -> Self {
         Self {
             D_n: Vector3::repeat(4.0),
-            K: 200.0,
+            K: 400.0,
             K_P: Vector3::repeat(20.0),
             tau_max: Vector3::new(153.0, 259.0, 153.0),
         }
