@@ -25,6 +25,9 @@
 //! 3. tau_a = Jᵀ f_a, within ±tau_max: [`arm_law::limits`]. What the limits leave is what the nominal of laws 3 and 4 feels.
 //! 4. The ledger counts the work that tau_a does at the joints: [`arm_law::task_space`].
 //!
+//! With `space` = joint the nominal is an arm of rigid links instead, `nominal.*`, and 2. and 3. are M_n(q) ddq_n +
+//! (C_n + D_n) dq_n = Jᵀ f_h − alpha y, tau_a = K y on the joints: [`arm_law::joint_space`].
+//!
 //! Whether the law runs at all, and with which authority, `engage` says, or [`arm_law::supervision`] if `supervision` is on.
 //!
 //! | variable | symbol | unit | what |
