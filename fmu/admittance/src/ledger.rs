@@ -159,6 +159,37 @@ impl<const N: usize> Ledger<N> {
         }
     }
 
+    /// Settles the sample that ends now at a position that is not known, with nothing left stored: the tank pays for the most
+    /// that the force can have done, and, with a delay, at the next sample again.
+    #[must_use]
+    pub fn unseen(self) -> Self {
+        let foretelling = self.foretelling();
+        let most = self.reach.most_work(&self.acting, foretelling, 1, self.T);
+        let unseen = Self {
+            q: None,
+            last_step: None,
+            outside: false,
+            ..self
+        };
+        if !self.defined {
+            return unseen;
+        }
+        let created = most - self.H - self.supplied;
+        let tank = real::min(self.tank - created, real::max(self.E_0, unseen.reserved()));
+        let size = real::abs(self.tank) + real::abs(most) + self.H + real::abs(self.supplied);
+        Self {
+            H: 0.0,
+            G: self.G + created,
+            tank,
+            rounding: if tank < 0.0 {
+                real::max(self.rounding, A_SAMPLE * size)
+            } else {
+                0.0
+            },
+            ..unseen
+        }
+    }
+
     /// The same without a motion to judge the next one by: the law engages, and what was sensed before need not have been
     /// the robot.
     #[must_use]
@@ -223,7 +254,10 @@ impl<const N: usize> Ledger<N> {
     }
 
     fn created(&self, H: Real, q: &SVector<Real, N>) -> Real {
-        let work = self.q.map_or(0.0, |last| self.acting.dot(&(q - last)));
+        let work = match &self.q {
+            Some(last) => self.acting.dot(&(q - last)),
+            None => self.reach.most_work(&self.acting, None, 1, self.T),
+        };
         H - self.H + work - self.supplied
     }
 

@@ -248,7 +248,12 @@ impl ArmLaw {
             force: ft.hand.force.norm(),
         });
 
-        let ran = self.run(&pose, &q, ft, demand);
+        let is_seen = is_known && signals.encoder_valid;
+        let ran = if demand == Demand::Rest && !is_seen {
+            Ok(self.abandon(ft))
+        } else {
+            self.run(&pose, &q, ft, demand)
+        };
         let status = supervisor.judge(&ran.as_ref().map_or(Report::NOT_FINITE, |ran| Report {
             finite: true,
             debt: self.ledger().is_in_debt(),

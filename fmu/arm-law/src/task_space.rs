@@ -172,11 +172,17 @@ impl TaskSpace {
     /// [`step`](Self::step) engages anew.
     pub fn rest(&mut self, pose: &Pose, q: &Vector3<Real>) -> Outcome {
         self.ledger = self.ledger.settled(0.0, q);
-        self.abandon(pose)
+        self.out_of_the_loop(pose)
     }
 
-    /// The same when the sample that ends cannot be told in finite numbers: the ledger keeps what it last knew.
+    /// The same where the robot's position at this tick is not known, or no number: the tank pays for the most that the
+    /// torques can have done since the last one.
     pub fn abandon(&mut self, pose: &Pose) -> Outcome {
+        self.ledger = self.ledger.unseen();
+        self.out_of_the_loop(pose)
+    }
+
+    fn out_of_the_loop(&mut self, pose: &Pose) -> Outcome {
         let zeros = Vector3::zeros();
         self.axes.rest(&pose.p);
         self.ledger = self.ledger.opened(&zeros, 0.0);

@@ -3,7 +3,7 @@
 use crate::case::Case;
 use crate::genes::Genes;
 use crate::random::Random;
-use crate::subject::Arm;
+use crate::subject::{Arm, JointArm};
 use crate::trial::{self, Outcome};
 use admittance::Admittance;
 use std::fmt;
@@ -18,10 +18,12 @@ pub enum Target {
     Axes,
     /// The arm in task space, with its tank at the joints.
     Arm,
+    /// The arm in joint space.
+    JointArm,
 }
 
 /// All targets.
-pub const TARGETS: [Target; 3] = [Target::Axis, Target::Axes, Target::Arm];
+pub const TARGETS: [Target; 4] = [Target::Axis, Target::Axes, Target::Arm, Target::JointArm];
 
 /// A case on a target; as text, a line of the regressions.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -62,6 +64,12 @@ impl Attack {
                 let score = outcome.score(case.setup.settings.E_0);
                 (outcome, score)
             }
+            Target::JointArm => {
+                let case = Case::<3>::new(&self.genes);
+                let outcome = trial::run::<3, JointArm>(&case, 200);
+                let score = outcome.score(case.setup.settings.E_0);
+                (outcome, score)
+            }
         }
     }
 
@@ -69,7 +77,7 @@ impl Attack {
     pub fn describe(&self) -> String {
         match self.target {
             Target::Axis => format!("{:#?}", Case::<1>::new(&self.genes)),
-            Target::Axes | Target::Arm => format!("{:#?}", Case::<3>::new(&self.genes)),
+            _ => format!("{:#?}", Case::<3>::new(&self.genes)),
         }
     }
 
@@ -107,6 +115,7 @@ impl Target {
             Self::Axis => "axis",
             Self::Axes => "axes",
             Self::Arm => "arm",
+            Self::JointArm => "joint_arm",
         }
     }
 }
@@ -125,7 +134,7 @@ impl FromStr for Attack {
         let target = TARGETS
             .into_iter()
             .find(|target| target.name() == name)
-            .ok_or_else(|| format!("expected axis, axes or arm, got `{name}`"))?;
+            .ok_or_else(|| format!("expected axis, axes, arm or joint_arm, got `{name}`"))?;
         Ok(Self {
             target,
             genes: genes.parse()?,

@@ -2,8 +2,10 @@
 
 use crate::audit::Supply;
 use admittance::{Admittance, Bounds, Gains, ParameterError, Reach, Request, Settings};
+use arm_law::joint_space::{JointGains, JointParameters, JointSpace};
 use arm_law::kinematics::Kinematics;
 use arm_law::limits::{Limits, TorqueLimiting};
+use arm_law::nominal::NominalArm;
 use arm_law::task_space::TaskSpace;
 use nalgebra::{SVector, Vector3};
 
@@ -85,6 +87,14 @@ pub trait Subject<const N: usize>: Clone {
     }
 }
 
+impl Arm {
+    /// A tick at which the arm's position is not known: no torque.
+    pub fn blind(&mut self) {
+        let pose = self.kinematics.at(&Self::home());
+        self.law.abandon(&pose);
+    }
+}
+
 impl<const N: usize> Subject<N> for Admittance<N> {
     fn build(setup: &Setup<N>) -> Result<Self, ParameterError> {
         let mut law = Admittance::new(setup.settings, setup.gains)?
@@ -131,17 +141,21 @@ pub struct Arm {
     law: TaskSpace,
 }
 
+fn limits(setup: &Setup<3>) -> Limits {
+    Limits {
+        tau_max: Vector3::repeat(setup.tau_max),
+        tau_rate: Vector3::repeat(setup.rate),
+        limiting: if setup.clip {
+            TorqueLimiting::Clip
+        } else {
+            TorqueLimiting::Scale
+        },
+    }
+}
+
 impl Subject<3> for Arm {
     fn build(setup: &Setup<3>) -> Result<Self, ParameterError> {
-        let limits = Limits {
-            tau_max: Vector3::repeat(setup.tau_max),
-            tau_rate: Vector3::repeat(setup.rate),
-            limiting: if setup.clip {
-                TorqueLimiting::Clip
-            } else {
-                TorqueLimiting::Scale
-            },
-        };
+        let limits = limits(setup);
         limits.check()?;
         let law = TaskSpace::new(
             setup.settings,
@@ -190,6 +204,96 @@ impl Subject<3> for Arm {
     /// Joints that are clipped one by one turn the force: no output says what the nominal felt.
     fn shows_what_is_felt(setup: &Setup<3>) -> bool {
         !setup.clip
+    }
+}
+
+/// The law in joint space, whose gains are those of the three axes, the first one's K for all joints.
+#[derive(Clone, Copy, Debug)]
+pub struct JointArm {
+    kinematics: Kinematics,
+    law: JointSpace,
+}
+
+fn of_joints(gains: &[Gains; 3]) -> JointGains {
+    JointGains {
+        D_n: Vector3::from(gains.map(|gains| gains.D_n)),
+        K: gains[0].K,
+        K_P: Vector3::from(gains.map(|gains| gains.K_P)),
+        tau_max: Vector3::repeat(f64::INFINITY), // the limits' stands in for it
+    }
+}
+
+/// The nominal arm with all its masses and inertias times M_n/1 kg, a kilogram being about what its links have.
+fn scaled(M_n: f64) -> NominalArm {
+    let mut arm = NominalArm::default();
+    arm.rotor *= M_n;
+    for link in &mut arm.links {
+        for x in [
+            &mut link.m,
+            &mut link.I_xx,
+            &mut link.I_yy,
+            &mut link.I_zz,
+            &mut link.I_xz,
+        ] {
+            *x *= M_n;
+        }
+    }
+    arm
+}
+
+impl Subject<3> for JointArm {
+    fn build(setup: &Setup<3>) -> Result<Self, ParameterError> {
+        let limits = limits(setup);
+        limits.check()?;
+        let home = Self::home();
+        let bounds = [0, 1, 2].map(|i| Bounds {
+            q_min: setup.bounds[i].q_min + home[i],
+            q_max: setup.bounds[i].q_max + home[i],
+            ..setup.bounds[i]
+        });
+        let parameters = JointParameters {
+            arm: scaled(setup.gains[0].M_n),
+            gains: of_joints(&setup.gains),
+            bounds,
+        };
+        let kinematics = Kinematics::default();
+        let law = JointSpace::new(setup.settings, &parameters, kinematics, setup.reach, limits)?;
+        Ok(Self { kinematics, law })
+    }
+
+    fn home() -> Vector3<f64> {
+        Arm::home()
+    }
+
+    fn tick(&mut self, q: &Vector3<f64>, f_h: &Vector3<f64>, order: &Order<3>) -> Seen<3> {
+        let pose = self.kinematics.at(q);
+        let (done, nominal) = match order {
+            Order::Rest => self.law.rest(&pose, q),
+            Order::Run(request) => self.law.step(&pose, q, f_h, request),
+        };
+        let ledger = self.law.ledger();
+        Seen {
+            tau: done.tau,
+            felt: done.tau,
+            q_n: nominal.q_n,
+            dq_n: nominal.dq_n,
+            e_nr: nominal.e_nr,
+            tank: ledger.tank(),
+            G: ledger.G(),
+            H: ledger.H(),
+            share: done.share,
+            debt: ledger.is_in_debt(),
+            outside: done.outside_bounds,
+        }
+    }
+
+    fn tune(&mut self, gains: [Gains; 3]) -> Result<(), ParameterError> {
+        self.law.tune(of_joints(&gains))
+    }
+
+    /// The audit finds v_m axis by axis, and here the joints meet in M_n(q).
+    fn shows_what_is_felt(_setup: &Setup<3>) -> bool {
+        false
     }
 }
 

@@ -173,11 +173,17 @@ impl JointSpace {
     /// [`step`](Self::step) engages anew.
     pub fn rest(&mut self, pose: &Pose, q: &Vector3<Real>) -> (Outcome, Nominal) {
         self.ledger = self.ledger.settled(0.0, q);
-        self.abandon(pose, q)
+        self.out_of_the_loop(pose, q)
     }
 
-    /// The same when the sample that ends cannot be told in finite numbers: the ledger keeps what it last knew.
+    /// The same where the robot's angles at this tick are not known, or no numbers: the tank pays for the most that the
+    /// torques can have done since the last one. `q` (rad) and `pose` are the last that were known.
     pub fn abandon(&mut self, pose: &Pose, q: &Vector3<Real>) -> (Outcome, Nominal) {
+        self.ledger = self.ledger.unseen();
+        self.out_of_the_loop(pose, q)
+    }
+
+    fn out_of_the_loop(&mut self, pose: &Pose, q: &Vector3<Real>) -> (Outcome, Nominal) {
         let zeros = Vector3::zeros();
         self.joints.rest();
         self.ledger = self.ledger.opened(&zeros, 0.0);
