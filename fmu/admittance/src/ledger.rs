@@ -160,7 +160,8 @@ impl<const N: usize> Ledger<N> {
     }
 
     /// Settles the sample that ends now at a position that is not known, with nothing left stored: the tank pays for the most
-    /// that the force can have done, and, with a delay, at the next sample again.
+    /// that the force can have done, and, with a delay, at the next sample again. Where that is beyond all numbers the ledger
+    /// keeps what it last knew.
     #[must_use]
     pub fn unseen(self) -> Self {
         let foretelling = self.foretelling();
@@ -171,10 +172,10 @@ impl<const N: usize> Ledger<N> {
             outside: false,
             ..self
         };
-        if !self.defined {
+        let created = most - self.H - self.supplied;
+        if !self.defined || !(self.G + created).is_finite() {
             return unseen;
         }
-        let created = most - self.H - self.supplied;
         let tank = real::min(self.tank - created, real::max(self.E_0, unseen.reserved()));
         let size = real::abs(self.tank) + real::abs(most) + self.H + real::abs(self.supplied);
         Self {
