@@ -1,13 +1,11 @@
 //! The `.fmu` archive: the same bytes for the same contents, on any machine and day.
 
-use crate::{Interface, document, header, xml};
+use crate::{Component, Guide, Interface, document, header, licences, sbom, xml};
 use std::io::{Cursor, Write as _};
 use zip::result::ZipResult;
 use zip::write::{SimpleFileOptions, ZipWriter};
 use zip::{CompressionMethod, DateTime};
 
-const MIT: &str = include_str!("../../LICENSE-MIT");
-const APACHE: &str = include_str!("../../LICENSE-APACHE");
 const PICTURE: &[u8] = include_bytes!("../model.png");
 
 /// A shared library for one platform.
@@ -21,13 +19,41 @@ pub struct Binary<'a> {
     pub bytes: &'a [u8],
 }
 
+/// All that an archive is made from.
+#[derive(Clone, Copy, Debug)]
+pub struct Contents<'a> {
+    /// The interface.
+    pub interface: &'a Interface,
+    /// Its libraries.
+    pub binaries: &'a [Binary<'a>],
+    /// What is linked into them.
+    pub linked: &'a [Component],
+    /// What the interface document says besides the rows.
+    pub guide: Guide<'a>,
+    /// `model.png`, which importers show on the block.
+    pub icon: &'a [u8],
+}
+
+impl<'a> Contents<'a> {
+    /// What follows from the interface alone: no library, nothing linked in, the icon of a control loop.
+    pub fn of(interface: &'a Interface) -> Self {
+        Self {
+            interface,
+            binaries: &[],
+            linked: &[],
+            guide: Guide::default(),
+            icon: PICTURE,
+        }
+    }
+}
+
 /// Writes the archive. Paths are sorted, dates are 1980-01-01, libraries are executable, nothing else is.
 ///
 /// # Errors
 /// None in practice: the archive is written to memory.
-pub fn write(interface: &Interface, binaries: &[Binary<'_>]) -> ZipResult<Vec<u8>> {
+pub fn write(contents: &Contents<'_>) -> ZipResult<Vec<u8>> {
     let mut archive = ZipWriter::new(Cursor::new(Vec::new()));
-    for (path, contents) in files(interface, binaries) {
+    for (path, bytes) in files(contents) {
         if path.ends_with('/') {
             archive.add_directory(path, options(0o755))?;
         } else {
@@ -37,44 +63,49 @@ pub fn write(interface: &Interface, binaries: &[Binary<'_>]) -> ZipResult<Vec<u8
                 0o644
             };
             archive.start_file(path, options(permissions))?;
-            archive.write_all(&contents)?;
+            archive.write_all(&bytes)?;
         }
     }
     Ok(archive.finish()?.into_inner())
 }
 
-/// Paths in ascending order, with contents.
-fn files(interface: &Interface, binaries: &[Binary<'_>]) -> Vec<(String, Vec<u8>)> {
+/// Paths in ascending order, with contents; a folder's path ends in `/`.
+pub fn files(contents: &Contents<'_>) -> Vec<(String, Vec<u8>)> {
+    let Contents {
+        interface,
+        binaries,
+        linked,
+        guide,
+        icon,
+    } = *contents;
     let name = interface.name;
     let mut files = vec![
         (
             "modelDescription.xml".to_owned(),
             xml(interface).into_bytes(),
         ),
-        ("model.png".to_owned(), PICTURE.to_vec()),
+        ("model.png".to_owned(), icon.to_vec()),
         (
             "documentation/index.html".to_owned(),
-            document(interface).into_bytes(),
+            document(interface, guide).into_bytes(),
         ),
         (
             format!("documentation/{name}.h"),
             header(interface).into_bytes(),
         ),
         (
-            "documentation/licenses/license.txt".to_owned(),
-            licence(interface).into_bytes(),
-        ),
-        (
-            "documentation/licenses/LICENSE-MIT.txt".to_owned(),
-            MIT.into(),
-        ),
-        (
-            "documentation/licenses/LICENSE-APACHE.txt".to_owned(),
-            APACHE.into(),
+            "documentation/sbom.cdx.json".to_owned(),
+            sbom(interface, linked).into_bytes(),
         ),
         // Importers pass its location to fmi2Instantiate, so it exists, although nothing is in it.
         ("resources/".to_owned(), Vec::new()),
     ];
+    let licences = licences::files(interface, linked);
+    files.extend(
+        licences
+            .into_iter()
+            .map(|(path, text)| (format!("documentation/licenses/{path}"), text)),
+    );
     for Binary {
         platform,
         extension,
@@ -88,17 +119,6 @@ fn files(interface: &Interface, binaries: &[Binary<'_>]) -> Vec<(String, Vec<u8>
     }
     files.sort();
     files
-}
-
-/// The entry point for licence information (section 2.3).
-fn licence(interface: &Interface) -> String {
-    format!(
-        "{} {}\n{}\n\nLicensed under {}, at your option:\nLICENSE-MIT.txt or LICENSE-APACHE.txt in this folder.\n",
-        interface.name,
-        crate::VERSION,
-        xml::COPYRIGHT,
-        crate::LICENSE
-    )
 }
 
 fn options(permissions: u32) -> SimpleFileOptions {

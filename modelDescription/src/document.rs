@@ -1,6 +1,8 @@
 //! The interface document `documentation/index.html`: one page that needs nothing but itself.
 
+use crate::guide::{self, Guide};
 use crate::interface::{Entry, Interface, Kind};
+use crate::quick_start;
 use crate::xml::{self, LOG_CATEGORIES, double, variability};
 use declaration::{Causality, Stepping};
 use std::fmt::Write as _;
@@ -28,14 +30,16 @@ body{font:16px/1.5 system-ui,sans-serif;color:#1b1f24;max-width:64rem;margin:2re
 h1{margin-bottom:0}h1+p{margin-top:.2rem;color:#57606a;font-size:1.15rem}h2{margin-top:2.2rem;border-bottom:1px solid #d0d7de}
 table{border-collapse:collapse;width:100%;font-size:.92rem}th{text-align:left;background:#eef3f8}
 th,td{padding:.3rem .6rem;border-bottom:1px solid #d8dee4;vertical-align:top}td.n{text-align:right;font-variant-numeric:tabular-nums;white-space:nowrap}
+figure{margin:1rem 0}figure svg{width:100%;height:auto;background:#fff;border-radius:6px}
+pre{background:#f3f6fa;padding:.7rem 1rem;overflow-x:auto;font-size:.88rem}
 code{font-family:ui-monospace,monospace;font-size:.92em}td code{white-space:nowrap}
-@media (prefers-color-scheme:dark){body{background:#0d1117;color:#e6edf3}h1+p{color:#9aa4af}th{background:#161d27}th,td,h2{border-color:#30363d}a{color:#6cb6ff}}";
+@media (prefers-color-scheme:dark){body{background:#0d1117;color:#e6edf3}h1+p{color:#9aa4af}th,pre{background:#161d27}th,td,h2{border-color:#30363d}a{color:#6cb6ff}}";
 
 /// Writes the document.
 ///
 /// # Panics
 /// Never: text is written to memory.
-pub fn write(interface: &Interface) -> String {
+pub fn write(interface: &Interface, guide: Guide<'_>) -> String {
     let name = escape(interface.name);
     let mut page = format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
@@ -44,6 +48,9 @@ pub fn write(interface: &Interface) -> String {
         escape(interface.about)
     );
     facts(&mut page, interface);
+    guide::picture(&mut page, guide);
+    quick_start::append(&mut page, interface, guide.wiring);
+    guide::wiring(&mut page, interface.name, guide);
     stepping(&mut page, interface);
     for (title, causality) in [
         ("Inputs", Causality::Input),
@@ -70,7 +77,8 @@ pub fn write(interface: &Interface) -> String {
     let _ = writeln!(
         page,
         "</ul>\n<h2>Licence</h2>\n<p>{}. {}, at your option: <a href=\"licenses/LICENSE-MIT.txt\">MIT</a>, \
-         <a href=\"licenses/LICENSE-APACHE.txt\">Apache 2.0</a>.</p>\n</body>\n</html>",
+         <a href=\"licenses/LICENSE-APACHE.txt\">Apache 2.0</a>. What is linked into the libraries: \
+         <a href=\"licenses/license.txt\">licences</a>, <a href=\"sbom.cdx.json\">bill of materials</a> (CycloneDX 1.5).</p>\n</body>\n</html>",
         escape(xml::COPYRIGHT),
         escape(crate::LICENSE)
     );
@@ -265,7 +273,7 @@ fn log(page: &mut String) {
 }
 
 /// Opens a table; without titles it has no head.
-fn table(page: &mut String, columns: &[&str]) {
+pub(crate) fn table(page: &mut String, columns: &[&str]) {
     page.push_str("<table>\n");
     if columns.iter().any(|column| !column.is_empty()) {
         let head: String = columns
@@ -276,7 +284,7 @@ fn table(page: &mut String, columns: &[&str]) {
     }
 }
 
-fn escape(text: &str) -> String {
+pub(crate) fn escape(text: &str) -> String {
     text.replace('&', "&amp;")
         .replace('<', "&lt;")
         .replace('>', "&gt;")

@@ -4,8 +4,8 @@
 use crate::name::{is_identifier, is_structured};
 use core::fmt;
 use declaration::{
-    Access, Causality, Declare, Declared, Description, Enumeration, Experiment, Scalar, Stepping,
-    Unit, Variability, description::SCALARS_PER_ROW,
+    Access, Causality, Declare, Declared, Description, Enumeration, Experiment, Provenance, Scalar,
+    Stepping, Unit, Variability, description::SCALARS_PER_ROW, provenance,
 };
 use std::collections::BTreeMap;
 
@@ -22,7 +22,7 @@ pub struct Interface {
     pub stepping: Stepping,
     /// Default experiment, times in seconds.
     pub experiment: Experiment,
-    /// All scalars in the order of the XML: position 0 has index 1 there.
+    /// All scalars in the order of the XML, those of the rows and then [`provenance`]: position 0 has index 1 there.
     pub scalars: Vec<Entry>,
 }
 
@@ -138,6 +138,7 @@ impl Interface {
                 about: scalar.variable.about,
             });
         }
+        scalars.extend(provenance::ALL.map(built_from));
         check_scalars(&scalars)?;
         Ok(Self {
             name: description.name,
@@ -181,6 +182,21 @@ impl Interface {
     }
 }
 
+/// A variable that says what the library was built from.
+fn built_from(of: Provenance) -> Entry {
+    Entry {
+        name: of.name().to_owned(),
+        reference: of.reference(),
+        causality: Causality::Local,
+        variability: Variability::Fixed,
+        kind: Kind::String {
+            start: String::new(),
+        },
+        initially_from: Vec::new(),
+        about: of.about(),
+    }
+}
+
 /// What no single row can get wrong.
 fn check_frame<D>(description: &Description<D>) -> Result<(), Error> {
     let Experiment {
@@ -201,7 +217,7 @@ fn check_frame<D>(description: &Description<D>) -> Result<(), Error> {
     {
         return Err(Error::Experiment(description.experiment));
     }
-    if description.variables.len() as u64 * u64::from(SCALARS_PER_ROW) > u64::from(u32::MAX) {
+    if description.variables.len() > provenance::ROW as usize {
         return Err(Error::Rows(description.variables.len()));
     }
     Ok(())
@@ -515,11 +531,7 @@ impl fmt::Display for Error {
                     "default experiment: expected finite times, start < stop, step and tolerance > 0, got {experiment:?}"
                 )
             }
-            Self::Rows(rows) => write!(
-                f,
-                "{rows} rows: expected at most {}",
-                u32::MAX / SCALARS_PER_ROW
-            ),
+            Self::Rows(rows) => write!(f, "{rows} rows: expected at most {}", provenance::ROW),
             Self::Length {
                 row,
                 declared,

@@ -2,7 +2,7 @@
 //!
 //! ```
 //! use declaration::{real, unit, Declare, Description, Experiment, Stepping, Variability::*};
-//! use model_description::{Interface, archive};
+//! use model_description::{Interface, archive::{self, Contents}};
 //!
 //! #[derive(Default)]
 //! struct Lag { u: f64, y: f64, tau: f64 }
@@ -26,8 +26,8 @@
 //! assert!(xml.contains(r#"<ScalarVariable name="tau" valueReference="512""#));
 //! assert!(xml.contains(r#"<Unknown index="2" dependencies="1" dependenciesKind="dependent"/>"#));
 //!
-//! let fmu: Vec<u8> = archive::write(&interface, &[]).unwrap();
-//! assert_eq!(fmu, archive::write(&interface, &[]).unwrap(), "two archives, same bytes");
+//! let fmu: Vec<u8> = archive::write(&Contents::of(&interface)).unwrap();
+//! assert_eq!(fmu, archive::write(&Contents::of(&interface)).unwrap(), "two archives, same bytes");
 //! ```
 //!
 //! | module | what | where in the archive | FMI 2.0.5 |
@@ -36,22 +36,34 @@
 //! | [`name`] | names of the structured naming convention | | 2.2.9 |
 //! | [`schema`], [`mod@xml`] | the XML's elements, and their contents | `modelDescription.xml` | 2.2, 4.3.1 |
 //! | [`mod@document`] | the interface document for humans | `documentation/index.html` | 2.3 |
+//! | [`guide`] | what the rows cannot tell: picture, wiring | in the document | |
+//! | [`quick_start`] | first steps in a few tools | in the document | |
+//! | [`component`], [`mod@sbom`] | what is linked in, and its bill of materials | `documentation/sbom.cdx.json` | |
+//! | [`licences`] | licence texts of all that is linked in | `documentation/licenses/` | 2.3 |
 //! | [`mod@header`] | value references for C programs | `documentation/<name>.h` | |
 //! | [`archive`] | the archive, the same bytes every time | `<name>.fmu` | 2.3 |
 //!
 //! No model is known here. The table of this project's FMUs is in `xtask`.
 
 pub mod archive;
+pub mod component;
 pub mod document;
+pub mod guide;
 pub mod header;
 pub mod interface;
+pub mod licences;
 pub mod name;
+pub mod quick_start;
+pub mod sbom;
 pub mod schema;
 pub mod xml;
 
+pub use component::Component;
 pub use document::write as document;
+pub use guide::{Connection, Guide};
 pub use header::write as header;
 pub use interface::{Error, Interface};
+pub use sbom::write as sbom;
 pub use xml::write as xml;
 
 /// Version of the FMUs and of this tool: the workspace has one.

@@ -2,7 +2,8 @@
 
 mod subject;
 
-use model_description::{Interface, archive, document, header};
+use model_description::archive::{self, Contents};
+use model_description::{Component, Connection, Guide, Interface, document, header};
 use std::collections::{BTreeMap, BTreeSet};
 use std::io::{Cursor, Read as _};
 use subject::Subject;
@@ -11,6 +12,49 @@ const LIBRARY: &[u8] = b"\x7fELF, not really";
 
 fn interface() -> Interface {
     Interface::of::<Subject>().expect("a legal declaration")
+}
+
+const GUIDE: Guide<'static> = Guide {
+    picture: "<svg viewBox=\"0 0 1 1\"><path d=\"M0 0h1\"/></svg>",
+    wiring: &[
+        Connection {
+            from: ("Other", "y[i]"),
+            to: ("Subject", "u[i]"),
+            when: "",
+        },
+        Connection {
+            from: ("Subject", "angle[i]"),
+            to: ("Third", "angle[i]"),
+            when: "it is < there",
+        },
+    ],
+};
+
+/// A component with texts that uses one of this project.
+fn linked() -> Vec<Component> {
+    let own = Component {
+        name: "part".into(),
+        version: "1.0.0".into(),
+        license: "MIT OR Apache-2.0".into(),
+        purl: None,
+        sha256: None,
+        texts: Vec::new(),
+        uses: Vec::new(),
+    };
+    let foreign = Component {
+        name: "libx".into(),
+        version: "0.2.16".into(),
+        license: "MIT".into(),
+        purl: Some("pkg:cargo/libx@0.2.16".into()),
+        sha256: Some("ab".repeat(32)),
+        texts: vec![("LICENSE.txt".into(), b"libx: as you like".to_vec())],
+        uses: vec!["part-1.0.0".into()],
+    };
+    vec![foreign, own]
+}
+
+fn page() -> String {
+    document(&interface(), GUIDE)
 }
 
 fn written() -> Vec<u8> {
@@ -24,7 +68,13 @@ fn written() -> Vec<u8> {
         extension: ".so",
         bytes: LIBRARY,
     };
-    archive::write(&interface(), &[windows, linux]).expect("written to memory")
+    archive::write(&Contents {
+        binaries: &[windows, linux],
+        linked: &linked(),
+        guide: GUIDE,
+        ..Contents::of(&interface())
+    })
+    .expect("written to memory")
 }
 
 /// Path → (permissions, contents).
@@ -69,7 +119,9 @@ fn everything_has_its_place_in_sorted_order() {
             "documentation/index.html",
             "documentation/licenses/LICENSE-APACHE.txt",
             "documentation/licenses/LICENSE-MIT.txt",
+            "documentation/licenses/libx-0.2.16/LICENSE.txt",
             "documentation/licenses/license.txt",
+            "documentation/sbom.cdx.json",
             "model.png",
             "modelDescription.xml",
             "resources/",
@@ -96,9 +148,74 @@ fn everything_has_its_place_in_sorted_order() {
 }
 
 #[test]
+fn each_linked_component_is_named_with_its_licence_and_only_foreign_ones_have_a_folder() {
+    let (_, files) = read(written());
+    let overview =
+        String::from_utf8(files["documentation/licenses/license.txt"].1.clone()).unwrap();
+    assert!(overview.ends_with("\n\nlibx-0.2.16  MIT\n"), "{overview}");
+    assert_eq!(
+        files["documentation/licenses/libx-0.2.16/LICENSE.txt"].1,
+        b"libx: as you like"
+    );
+}
+
+#[test]
+fn the_bill_of_materials_lists_parts_hashes_licences_and_who_uses_whom() {
+    let (_, files) = read(written());
+    let bill: serde_json::Value =
+        serde_json::from_slice(&files["documentation/sbom.cdx.json"].1).expect("JSON");
+    assert_eq!(
+        (&bill["bomFormat"], &bill["specVersion"]),
+        (&"CycloneDX".into(), &"1.5".into())
+    );
+    // Neither of them belongs into something that is the same for the same parts.
+    assert!(bill["serialNumber"].is_null() && bill["metadata"]["timestamp"].is_null());
+    assert_eq!(bill["metadata"]["component"]["name"], "Subject");
+    assert_eq!(
+        bill["metadata"]["component"]["properties"][0]["value"],
+        interface().guid
+    );
+    let [foreign, own] = bill["components"].as_array().unwrap().as_slice() else {
+        panic!("two components");
+    };
+    assert_eq!(foreign["purl"], "pkg:cargo/libx@0.2.16");
+    assert_eq!(foreign["hashes"][0]["content"], "ab".repeat(32));
+    assert_eq!(foreign["licenses"][0]["expression"], "MIT");
+    assert!(own["purl"].is_null() && own["hashes"].is_null());
+    assert_eq!(
+        bill["dependencies"],
+        serde_json::json!([
+            { "ref": "Subject", "dependsOn": ["libx-0.2.16"] },
+            { "ref": "libx-0.2.16", "dependsOn": ["part-1.0.0"] },
+            { "ref": "part-1.0.0", "dependsOn": [] },
+        ])
+    );
+}
+
+#[test]
+fn picture_and_wiring_are_in_the_document() {
+    let page = page();
+    assert!(page.contains(GUIDE.picture));
+    for row in [
+        "<tr><td>u[i]</td><td>←</td><td>Other.y[i]</td><td>always</td></tr>",
+        "<tr><td>angle[i]</td><td>→</td><td>Third.angle[i]</td><td>it is &lt; there</td></tr>",
+        "oms_addConnection(&quot;m.s.Other.y[2]&quot;, &quot;m.s.Subject.u[2]&quot;)",
+        "oms_addSubModel(&quot;m.s.Other&quot;, &quot;Other.fmu&quot;)",
+    ] {
+        assert!(page.contains(row), "{row}");
+    }
+    assert!(
+        !page.contains("m.s.Third"),
+        "connected only in a special case"
+    );
+    let bare = document(&interface(), Guide::default());
+    assert!(!bare.contains("<figure>") && !bare.contains("How to wire"));
+}
+
+#[test]
 fn no_link_of_the_document_is_dead() {
     let (_, files) = read(written());
-    let page = document(&interface());
+    let page = page();
     let links: Vec<_> = page
         .split("href=\"")
         .skip(1)
@@ -120,7 +237,7 @@ fn no_link_of_the_document_is_dead() {
 
 #[test]
 fn the_document_shows_every_variable_with_unit_start_range_and_description() {
-    let page = document(&interface());
+    let page = page();
     for row in [
         "<td><code>u[3]</code></td><td>Real</td><td>N</td><td class=\"n\">0.3333333333333333</td><td class=\"n\">-10000.0 … 10000.0</td>\
          <td>discrete</td><td class=\"n\">2</td><td>force &amp; &quot;sign&quot;</td>",
@@ -147,10 +264,10 @@ fn the_document_shows_every_variable_with_unit_start_range_and_description() {
 
 #[test]
 fn the_tags_of_the_document_are_balanced() {
-    let page = document(&interface());
+    let page = page();
     for tag in [
         "html", "head", "body", "table", "tr", "td", "th", "ul", "li", "p", "a", "code", "h2",
-        "style",
+        "style", "pre", "figure", "svg", "b",
     ] {
         let open =
             page.matches(&format!("<{tag}>")).count() + page.matches(&format!("<{tag} ")).count();

@@ -291,6 +291,31 @@ fn a_choice_is_an_integer_that_names_its_items() {
 }
 
 #[test]
+fn version_and_git_hash_follow_the_rows_and_the_xml_has_no_value_of_theirs() {
+    let all = written();
+    let last: Vec<_> = variables(&all).into_iter().rev().take(2).rev().collect();
+    for ((scalar, kind), (name, reference)) in last
+        .into_iter()
+        .zip([("version", "16776960"), ("git_hash", "16776961")])
+    {
+        let attribute = |name: &str| scalar.get(name);
+        assert_eq!(attribute("name"), Some(name));
+        assert_eq!(attribute("valueReference"), Some(reference));
+        assert_eq!(attribute("causality"), Some("local"));
+        assert_eq!(attribute("variability"), Some("fixed"));
+        assert_eq!(attribute("initial"), Some("calculated"));
+        assert!(kind.path.ends_with("/String"));
+        assert!(kind.attributes.is_empty(), "{name} has no start");
+    }
+    // Local variables are no InitialUnknowns (section 2.2.8): outputs and calculated parameters are.
+    let count = variables(&all).len();
+    for i in under(&all, "ModelStructure/InitialUnknowns/Unknown") {
+        let index: usize = all[i].get("index").unwrap().parse().unwrap();
+        assert!(index <= count - 2);
+    }
+}
+
+#[test]
 fn special_characters_survive() {
     let all = written();
     assert_eq!(

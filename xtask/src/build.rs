@@ -21,6 +21,7 @@ pub fn library(package: &str, name: &str) -> Outcome<Vec<u8>> {
     // The encoded form takes precedence over RUSTFLAGS and over cargo's configuration, and takes spaces in paths.
     run(build
         .arg(&target)
+        .env("EXO_GIT_HASH", git_hash())
         .env("CARGO_ENCODED_RUSTFLAGS", remapping()?))?;
     let file = format!(
         "{}{name}{}",
@@ -29,16 +30,42 @@ pub fn library(package: &str, name: &str) -> Outcome<Vec<u8>> {
     );
     let path = target.join("release/examples").join(file);
     let bytes = std::fs::read(&path).map_err(at(&path))?;
+    forbid_private_paths(&path.to_string_lossy(), &bytes)?;
+    Ok(bytes)
+}
+
+/// Refuses bytes that tell of this machine.
+///
+/// # Errors
+/// Names the file and the path that is in it.
+pub fn forbid_private_paths(file: &str, bytes: &[u8]) -> Outcome {
     match private_paths()
         .into_iter()
-        .find(|private| contains(&bytes, private.as_encoded_bytes()))
+        .find(|private| contains(bytes, &[private.as_encoded_bytes(), b"/"].concat()))
     {
         Some(private) => Err(Failure::Found(format!(
-            "{} carries the path {}",
-            path.display(),
+            "{file} carries the path {}",
             private.to_string_lossy()
         ))),
-        None => Ok(bytes),
+        None => Ok(()),
+    }
+}
+
+/// The commit that is built: its hash, with `-dirty` when files that git knows differ from it; `unknown` outside of git.
+/// A source without its history can be told by `EXO_GIT_HASH` in the environment.
+pub fn git_hash() -> String {
+    if let Ok(told) = std::env::var("EXO_GIT_HASH") {
+        return told;
+    }
+    let hash = answer(&mut program("git", ["rev-parse", "HEAD"]));
+    let status = answer(&mut program(
+        "git",
+        ["status", "--porcelain", "--untracked-files=no"],
+    ));
+    match (hash, status.as_deref()) {
+        (Some(hash), Some("")) => hash,
+        (Some(hash), Some(_)) => hash + "-dirty",
+        _ => "unknown".to_owned(),
     }
 }
 
@@ -67,7 +94,7 @@ fn remapping() -> Outcome<OsString> {
     Ok(flags)
 }
 
-/// Paths that must not be in a library.
+/// Paths that must not be in a library or an archive.
 fn private_paths() -> Vec<OsString> {
     let home = std::env::var_os("HOME").map(PathBuf::from);
     let paths = [Some(root()), Some(cargo_home()), sysroot(), home];
@@ -108,6 +135,16 @@ mod tests {
         ));
         assert!(!contains(b"\x7fELF\0/source/src/lib.rs\0", b"/home/me"));
         assert!(!contains(b"x", b""));
+    }
+
+    #[test]
+    fn a_file_with_a_path_of_this_machine_is_refused_and_named() {
+        let text = format!("see {}/src/lib.rs", root().display());
+        let message = forbid_private_paths("index.html", text.as_bytes())
+            .unwrap_err()
+            .to_string();
+        assert!(message.contains("index.html") && message.contains(&*root().to_string_lossy()));
+        assert!(forbid_private_paths("index.html", b"see /source/src/lib.rs").is_ok());
     }
 
     #[test]

@@ -11,7 +11,23 @@ pub struct Fmu {
     pub name: &'static str,
     /// The package that it is built from.
     pub package: &'static str,
+    /// Signs and frames, as an `<svg>` element.
+    pub picture: &'static str,
+    /// `model.png`.
+    pub icon: &'static [u8],
     read: fn() -> Result<Interface, model_description::Error>,
+}
+
+macro_rules! picture {
+    ($name:literal) => {
+        include_str!(concat!("../../modelDescription/pictures/", $name, ".svg"))
+    };
+}
+
+macro_rules! icon {
+    ($name:literal) => {
+        include_bytes!(concat!("../../modelDescription/icons/", $name, ".png"))
+    };
 }
 
 /// All FMUs.
@@ -19,31 +35,43 @@ pub const FMUS: [Fmu; 6] = [
     Fmu {
         name: "TestbedController",
         package: "testbed-controller",
+        picture: picture!("testbed"),
+        icon: icon!("TestbedController"),
         read: Interface::of::<testbed_controller::TestbedController>,
     },
     Fmu {
         name: "Testbed",
         package: "testbed",
+        picture: picture!("testbed"),
+        icon: icon!("Testbed"),
         read: Interface::of::<testbed::Testbed>,
     },
     Fmu {
         name: "ArmController",
         package: "arm-controller",
+        picture: picture!("arm"),
+        icon: icon!("ArmController"),
         read: Interface::of::<arm_controller::ArmController>,
     },
     Fmu {
         name: "ExoskeletonArm",
         package: "exoskeleton-arm",
+        picture: picture!("arm"),
+        icon: icon!("ExoskeletonArm"),
         read: Interface::of::<exoskeleton_arm::ExoskeletonArm>,
     },
     Fmu {
         name: "ExoskeletonArms",
         package: "exoskeleton-arms",
+        picture: picture!("arm"),
+        icon: icon!("ExoskeletonArms"),
         read: Interface::of::<exoskeleton_arms::ExoskeletonArms>,
     },
     Fmu {
         name: "HumanOperator",
         package: "human-operator",
+        picture: picture!("arm"),
+        icon: icon!("HumanOperator"),
         read: Interface::of::<human_operator::HumanOperator>,
     },
 ];

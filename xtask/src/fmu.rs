@@ -1,15 +1,18 @@
 //! Archives from libraries.
 
-use crate::build::library;
-use crate::catalogue::FMUS;
+use crate::build::{forbid_private_paths, library};
+use crate::catalogue::{FMUS, Fmu};
 use crate::process::{Failure, Outcome, at, root};
-use model_description::archive::{self, Binary};
+use crate::{linked, wiring};
+use model_description::archive::{self, Binary, Contents};
+use model_description::{Component, Guide, Interface};
 use std::path::Path;
 
 /// Builds `target/fmu/<Name>.fmu` of every FMU, and `target/fmu/test/` for the tests of the C interface.
 pub fn build_all(bless: bool) -> Outcome {
     let platform = platform()?;
     let folder = root().join("target/fmu");
+    // Before anything is built: a diff can be read while the libraries are made.
     for fmu in FMUS {
         let interface = fmu.interface()?;
         if bless {
@@ -20,14 +23,21 @@ pub fn build_all(bless: bool) -> Outcome {
                 fmu.name
             );
         }
+    }
+    for fmu in FMUS {
+        let interface = fmu.interface()?;
         let bytes = library(fmu.package, fmu.name)?;
         let binary = Binary {
             platform,
             extension: std::env::consts::DLL_SUFFIX,
             bytes: &bytes,
         };
-        let archive = archive::write(&interface, &[binary])
-            .map_err(|cause| Failure::Found(cause.to_string()))?;
+        let archive = archive(
+            &fmu,
+            &interface,
+            &[binary],
+            &linked::components(fmu.package)?,
+        )?;
         let path = folder.join(fmu.name).with_extension("fmu");
         replace(&path, &archive)?;
         println!(
@@ -43,6 +53,32 @@ pub fn build_all(bless: bool) -> Outcome {
         std::env::consts::DLL_SUFFIX
     );
     replace(&folder.join("test").join(name), &library("export", "lag")?)
+}
+
+/// The archive of one FMU, with libraries for some platforms and what is linked into them.
+///
+/// # Errors
+/// When a path of this machine stands in one of its files.
+pub fn archive(
+    fmu: &Fmu,
+    interface: &Interface,
+    binaries: &[Binary<'_>],
+    linked: &[Component],
+) -> Outcome<Vec<u8>> {
+    let contents = Contents {
+        interface,
+        binaries,
+        linked,
+        guide: Guide {
+            picture: fmu.picture,
+            wiring: &wiring::of(fmu.name),
+        },
+        icon: fmu.icon,
+    };
+    for (path, bytes) in archive::files(&contents) {
+        forbid_private_paths(&format!("{}.fmu: {path}", fmu.name), &bytes)?;
+    }
+    archive::write(&contents).map_err(|cause| Failure::Found(cause.to_string()))
 }
 
 /// Folder of this machine's libraries in an archive.

@@ -14,6 +14,9 @@
 //! | [`catalogue`] | the table of the FMUs, and their committed descriptions |
 //! | [`build`] | libraries without a trace of this machine |
 //! | [`fmu`] | archives from libraries |
+//! | [`linked`] | what is linked into a library, with its licence texts |
+//! | [`licence`] | which licences may be |
+//! | [`wiring`] | which output belongs to which input |
 //! | [`venv`] | the Python environment |
 //! | [`stages`] | commands made of stages, each with its time |
 //! | [`process`] | other programs, and what went wrong with them |
@@ -21,9 +24,14 @@
 mod build;
 mod catalogue;
 mod fmu;
+mod licence;
+mod linked;
+#[cfg(test)]
+mod pictures;
 mod process;
 mod stages;
 mod venv;
+mod wiring;
 
 use clap::{Parser, Subcommand};
 use std::process::ExitCode;

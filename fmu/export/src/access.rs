@@ -5,7 +5,8 @@ use crate::ffi::ValueReference;
 use crate::instance::{Instance, refused};
 use crate::legality::Phase;
 use crate::model::{Model, Refusal};
-use declaration::{Access, Causality, Variable};
+use crate::provenance::text;
+use declaration::{Access, Causality, Provenance, Variable};
 
 /// A type of the interface: how to find it in a row and what a row demands of a value.
 pub trait Value: Sized + Clone + 'static {
@@ -17,6 +18,11 @@ pub trait Value: Sized + Clone + 'static {
 
     /// What is wrong with the value, if anything.
     fn objection<M>(&self, row: &Variable<M>) -> Option<String>;
+
+    /// A constant text as a value, if this is the type for texts.
+    fn of_text(_: &'static str) -> Option<Self> {
+        None
+    }
 }
 
 impl Value for f64 {
@@ -107,6 +113,10 @@ impl Value for String {
     fn objection<M>(&self, _: &Variable<M>) -> Option<String> {
         None
     }
+
+    fn of_text(text: &'static str) -> Option<Self> {
+        Some(text.to_owned())
+    }
 }
 
 /// Checks every parameter against its row, as Set does: for models that are also used without the C interface, whose
@@ -135,6 +145,9 @@ pub fn check_parameters<M: Model>(model: &mut M) -> Result<(), Refusal> {
     Ok(())
 }
 
+/// Why what the model computes is refused.
+const COMPUTED: &str = "is computed by the model: it cannot be set";
+
 /// Where one scalar of type `V` lives.
 struct Place<M: 'static, V> {
     variable: &'static Variable<M>,
@@ -150,17 +163,20 @@ fn place<M: Model, V: Value>(reference: ValueReference) -> Result<Place<M, V>, F
         ));
     };
     let Some(at) = V::at(&variable.access) else {
-        return refused(format!(
-            "{} (value reference {reference}) is not of type {}",
-            variable.element_name(element),
-            V::TYPE
-        ));
+        return another_type::<_, V>(&variable.element_name(element), reference);
     };
     Ok(Place {
         variable,
         element,
         at,
     })
+}
+
+fn another_type<T, V: Value>(name: &str, reference: ValueReference) -> Result<T, Failure> {
+    refused(format!(
+        "{name} (value reference {reference}) is not of type {}",
+        V::TYPE
+    ))
 }
 
 /// Why a variable cannot be set in this phase, if it cannot.
@@ -171,9 +187,7 @@ fn not_settable<M>(variable: &Variable<M>, phase: Phase) -> Option<&'static str>
         Causality::Parameter => {
             Some("is a fixed parameter: it can be set before the end of Initialization Mode only")
         }
-        Causality::Output | Causality::Local | Causality::CalculatedParameter => {
-            Some("is computed by the model: it cannot be set")
-        }
+        Causality::Output | Causality::Local | Causality::CalculatedParameter => Some(COMPUTED),
     }
 }
 
@@ -189,6 +203,13 @@ impl<M: Model> Instance<M> {
             let _ = self.initialize();
         }
         for (i, &reference) in references.iter().enumerate() {
+            if let Some(of) = Provenance::find(reference) {
+                match V::of_text(text(of)) {
+                    Some(value) => put(i, &value),
+                    None => return another_type::<_, V>(of.name(), reference),
+                }
+                continue;
+            }
             let place = place::<M, V>(reference)?;
             put(i, &(place.at)(&mut self.now.model)[place.element]);
         }
@@ -205,6 +226,9 @@ impl<M: Model> Instance<M> {
         let phase = self.now.phase;
         let mut tuned = false;
         for (i, &reference) in references.iter().enumerate() {
+            if let Some(of) = Provenance::find(reference) {
+                return refused(format!("{} {COMPUTED}", of.name()));
+            }
             let Place {
                 variable, element, ..
             } = place::<M, V>(reference)?;

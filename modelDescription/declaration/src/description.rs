@@ -1,6 +1,6 @@
 //! The model as a whole.
 
-use crate::{Access, Variable};
+use crate::{Access, Variable, provenance};
 use core::fmt::Write as _;
 
 /// How the model advances; decides the variability that its inputs and outputs declare and the step size advice.
@@ -128,6 +128,14 @@ impl<M: Declare> Description<M> {
                 v.causality,
                 v.variability,
                 v.initially_from
+            );
+        }
+        for one in provenance::ALL {
+            let _ = writeln!(
+                text,
+                "{} {} fixed local String",
+                one.reference(),
+                one.name()
             );
         }
         uuid::Uuid::new_v5(&uuid::Uuid::NAMESPACE_OID, text.as_bytes())

@@ -32,12 +32,15 @@
 //! | [`variable`] | the row: [`Variable`], its type, causality, variability |
 //! | [`mod@unit`] | units with their SI base exponents |
 //! | [`description`] | the model as a whole: [`Description`], [`Declare`], default experiment, guid |
+//! | [`provenance`] | version and git hash, which every FMU has beside its rows |
 
 pub mod description;
+pub mod provenance;
 mod rows;
 pub mod unit;
 pub mod variable;
 
 pub use description::{Declare, Description, Experiment, Scalar, Stepping};
+pub use provenance::Provenance;
 pub use unit::Unit;
 pub use variable::{Access, Causality, Declared, Enumeration, Item, Variability, Variable};
