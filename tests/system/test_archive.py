@@ -6,12 +6,16 @@ import re
 import subprocess
 import sys
 import zipfile
+from importlib import resources
 from pathlib import Path
 from typing import Any
 
 import fmpy
+import jsonschema
 import pytest
+from cyclonedx.schema import _res as schemas
 from fmpy.fmi2 import FMU2Slave
+from referencing import Registry, Resource
 
 
 @pytest.fixture
@@ -53,6 +57,20 @@ def test_the_first_example_of_the_document_runs_as_it_is(fmu: Path, tmp_path: Pa
     assert answer.returncode == 0, answer.stdout + answer.stderr
     assert answer.stdout.startswith("('time',")
     assert float(answer.stdout.splitlines()[1].split(",")[0].strip("( ")) == pytest.approx(1.0, abs=1e-9)
+
+
+def test_the_bill_of_materials_follows_cyclonedx(bill: dict[str, Any]) -> None:
+    folder = resources.files(schemas)
+    read = {file.name: json.loads(file.read_text("utf-8")) for file in folder.iterdir() if ".schema.json" in file.name}
+    # They refer to each other by file name, from the place that the first one says.
+    registry = Registry().with_resources(
+        (f"http://cyclonedx.org/schema/{name}", Resource.from_contents(schema)) for name, schema in read.items()
+    )
+    validator = jsonschema.Draft7Validator(read["bom-1.5.SNAPSHOT.schema.json"], registry=registry)
+    assert [error.message for error in validator.iter_errors(bill)] == []
+    # The schema says no to what is wrong.
+    assert not validator.is_valid({**bill, "specVersion": 1.5})
+    assert not validator.is_valid({**bill, "components": [{"name": "no type"}]})
 
 
 def test_the_bill_of_materials_refers_to_what_it_lists(bill: dict[str, Any], fmu: Path) -> None:
