@@ -1,5 +1,8 @@
 """The command `exo`. Exit codes: 0 good, 1 a failed verdict (or difference, or problem), 2 a wrong command."""
 
+import json
+import re
+from collections import Counter
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import replace
@@ -15,7 +18,7 @@ from rich.table import Table
 from exo import benchmark as bench
 from exo import compare as comparison
 from exo import experiment, report, results, scenario, tool, validate
-from exo.errors import ExoError, ScenarioError
+from exo.errors import ExoError, FmuError, ScenarioError
 from exo.experiment import Experiment
 from exo.fmu import find_fmu_dir
 from exo.tuning import guide as tuning
@@ -30,6 +33,8 @@ Out = Annotated[Path, typer.Option("--out", help="Folder for the results.")]
 FmuDir = Annotated[
     Path | None, typer.Option("--fmu-dir", help="Folder of the archives; else $EXO_FMU_DIR or target/fmu.")
 ]
+#: Findings of one rule that `exo validate` prints.
+SHOWN = 5
 COLORS = {"pass": "green", "fail": "bold red", "info": "blue"}
 
 
@@ -104,16 +109,34 @@ def compare(
 
 
 @app.command("validate")
-def validate_fmus(fmus: Annotated[list[Path], typer.Argument(metavar="FMU…")]) -> None:
-    """Validates archives with fmpy; exit code 1 when it finds problems."""
+def validate_fmus(
+    fmus: Annotated[list[Path] | None, typer.Argument(metavar="FMU…")] = None,
+    *,
+    strict: Annotated[bool, typer.Option(help="Warnings, too, are exit code 1.")] = False,
+    load: Annotated[bool, typer.Option(help="Run the library of this machine in a process of its own.")] = True,
+    platforms: Annotated[
+        list[str] | None, typer.Option("--platform", help="A folder that binaries/ must have; may be repeated.")
+    ] = None,
+    max_glibc: Annotated[str | None, typer.Option(help="Newest glibc that Linux libraries may need, as 2.17.")] = None,
+    as_json: Annotated[bool, typer.Option("--json", help="Findings as JSON.")] = False,
+    rules: Annotated[bool, typer.Option("--rules", help="Lists the rules instead.")] = False,
+) -> None:
+    """Validates FMI 2.0 co-simulation FMUs, with fmpy and by own rules; exit code 1 on an error."""
+    if rules:
+        _print_rules()
+        return
     with sentences():
-        found = {path: validate.problems(path) for path in fmus}
-    for path, problems in found.items():
-        for problem in problems:
-            console.print(f"{path}: {problem}", markup=False)
-        if not problems:
-            console.print(f"{path}: No problems found.", markup=False)
-    raise typer.Exit(1 if any(found.values()) else 0)
+        if not fmus:
+            raise FmuError("no FMU is given: exo validate FMU…, or --rules")
+        if max_glibc is not None and not re.fullmatch(r"[0-9]+(\.[0-9]+)+", max_glibc):
+            raise FmuError(f"--max-glibc {max_glibc}: expected a version, as 2.17")
+        reports = [validate.check(f, run=load, platforms=tuple(platforms or ()), max_glibc=max_glibc) for f in fmus]
+    if as_json:
+        typer.echo(json.dumps([report.as_json(strict=strict) for report in reports], indent=2, ensure_ascii=False))
+    else:
+        for report in reports:
+            _print_report(report)
+    raise typer.Exit(1 if any(report.failed(strict=strict) for report in reports) else 0)
 
 
 @app.command()
@@ -146,6 +169,29 @@ def identify_tool(
         f"# left of {len(q)} readings: {found.force_rest:.2g} N, {found.torque_rest:.2g} N·m root mean square",
         markup=False,
     )
+
+
+def _print_rules() -> None:
+    table = Table("rule", "severity", "holds when", box=None)
+    for rule in validate.RULES.values():
+        table.add_row(rule.id, rule.severity, rule.text)
+    console.print(table)
+
+
+def _print_report(report: validate.Report) -> None:
+    """At most `SHOWN` findings of one rule: an exporter that breaks a rule often breaks it in every variable."""
+    seen: Counter[str] = Counter()
+    for finding in report.findings:
+        seen[finding.rule] += 1
+        if seen[finding.rule] <= SHOWN:
+            console.print(f"{report.path}: {finding}", markup=False)
+    for rule, times in seen.items():
+        if times > SHOWN:
+            console.print(f"{report.path}: {times - SHOWN} more of {rule}: see --json", markup=False)
+    for sentence in report.skipped:
+        console.print(f"{report.path}: not checked: {sentence}", markup=False)
+    if not report.findings:
+        console.print(f"{report.path}: No problems found.", markup=False)
 
 
 def parse_angles(text: str) -> list[float]:

@@ -1,0 +1,96 @@
+"""Judges FMI 2.0 co-simulation FMUs, this project's or any other's: fmpy's validation, and what that misses.
+
+1. `archive.py`: the ZIP file, read without trusting it. Only a safe archive is gone on with.
+2. `description.py`: the XML, without document types and entities.
+3. `fmpy`: schema, names, required start values, causality with variability, completeness of ModelStructure.
+4. `header.py`, `variables.py`, `units.py` with `si.py`, `structure.py`: what the schema and fmpy do not see.
+5. `layout.py`, `documentation.py`: folders, dead links.
+6. `binaries.py`: format, exports and needs of every platform's library (parsed by LIEF, not run).
+7. `load.py`: the library of this machine, run through one step.
+
+Steps 6 and 7 happen in `probe.py`, in a process of its own (`child.py`): a crash is a finding, not an end. Loading runs
+the FMU's machine code with the rights of the caller; `load=False` leaves step 7 out.
+
+Not checked: model exchange (a ModelExchange element is only seen by the schema), FMI 1.0 and 3.0 (refused by
+`xml-version`), source code FMUs beyond the presence of `sources/`, libraries of other machines beyond their file, and
+behaviour beyond one step. Rules: `rule.py`; each is listed in docs/validate.md and shown to fire by a broken FMU.
+"""
+
+import tempfile
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+from fmpy.validation import validate_fmu
+
+from exo.errors import FmuError
+from exo.validate import binaries, description, documentation, header, layout, load, structure, units, variables
+from exo.validate.archive import DESCRIPTION, open_archive
+from exo.validate.rule import RULES, Finding, Severity, error
+
+__all__ = ["RULES", "Finding", "Report", "Severity", "check", "problems"]
+
+FMPY = error("fmpy", "fmpy's validation finds nothing")
+
+
+@dataclass(frozen=True)
+class Report:
+    """What was found in one FMU, and what could not be looked at."""
+
+    path: Path
+    findings: tuple[Finding, ...]
+    #: Sentences: steps that were left out, and why.
+    skipped: tuple[str, ...]
+
+    def failed(self, *, strict: bool = False) -> bool:
+        """Whether there is an error; if strict, a warning suffices."""
+        return any(strict or finding.severity is Severity.ERROR for finding in self.findings)
+
+    def as_json(self, *, strict: bool = False) -> dict[str, Any]:
+        """For other programs: `fmu`, `failed`, `findings` (rule, severity, where, value, expected), `skipped`."""
+        found = [asdict(finding) for finding in self.findings]
+        return {"fmu": str(self.path), "failed": self.failed(strict=strict), "findings": found, "skipped": self.skipped}
+
+
+def check(path: Path, *, run: bool = True, platforms: tuple[str, ...] = (), max_glibc: str | None = None) -> Report:
+    """Judges an FMU: with `run` its library is loaded, `platforms` must be there, ELF libraries need no newer glibc."""
+    if not path.is_file():
+        raise FmuError(f"{path}: no such FMU: run `cargo xtask fmu` first")
+    contents, found = open_archive(path)
+    if contents is None:
+        return Report(path, tuple(found), ("all but the archive: it is not safe or not an FMU",))
+    described, problems_of_xml = description.parse(contents.read(DESCRIPTION))
+    found += problems_of_xml
+    if described is None:
+        return Report(path, tuple(found), ("all but archive and XML: the description cannot be read",))
+    found += [FMPY.at(DESCRIPTION, problem, "a valid description") for problem in problems(path)]
+    found += header.findings(described)
+    found += variables.findings(described)
+    found += units.findings(described)
+    found += structure.findings(described)
+    found += layout.findings(contents, described.root.get("license"))
+    found += documentation.findings(contents)
+    skipped = []
+    with tempfile.TemporaryDirectory(prefix="exo-validate-") as temporary:
+        folder = Path(temporary).resolve()
+        contents.extract(folder)
+        of_binaries = list(binaries.findings(contents, described, folder, platforms=platforms, max_glibc=max_glibc))
+        found += of_binaries
+        library = load.library(described, folder)
+        unusable = {finding.rule for finding in of_binaries} & {binaries.EXPORTS.id, binaries.FORMAT.id}
+        if not run:
+            skipped.append("loading: not wanted")
+        elif library is None:
+            skipped.append(f"loading: no library for {' or '.join(load.host_platforms())}")
+        elif unusable:
+            skipped.append(f"loading: {', '.join(sorted(unusable))}")
+        else:
+            found += load.findings(described, folder, library)
+    return Report(path, tuple(found), tuple(skipped))
+
+
+def problems(path: Path) -> list[str]:
+    """What fmpy finds wrong: schema, names, ModelStructure, start values, causality with variability, units."""
+    if not path.is_file():
+        raise FmuError(f"{path}: no such FMU: run `cargo xtask fmu` first")
+    return [str(problem) for problem in validate_fmu(str(path))]

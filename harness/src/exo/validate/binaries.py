@@ -1,0 +1,123 @@
+"""Shared libraries: which platforms there are, and what each library exports, needs and gives away."""
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path, PurePosixPath
+from typing import Any
+
+from exo.validate import child
+from exo.validate.archive import Contents
+from exo.validate.description import Description
+from exo.validate.rule import Finding, error, warning
+
+PLATFORM = warning("binary-platform", "folders in binaries/ are the standard's platforms or architecture-system pairs")
+NAME = error("binary-name", "each platform's folder has <modelIdentifier> with the system's extension")
+NONE = error("binary-none", "there is a binary or source code, unless the FMU needs a tool")
+WANTED = error("binary-wanted", "the platforms asked for with --platform are there")
+FORMAT = error("binary-format", "a library is a shared library of its platform's system and machine")
+EXPORTS = error("binary-exports", "all functions of FMI 2.0 for co-simulation are exported, supported or not")
+EXTRA = warning("binary-extra", "nothing else is exported: the symbols of two FMUs in one process could collide")
+PATHS = warning("binary-paths", "no path of the build machine's users is in the binary")
+GLIBC = error("binary-glibc", "no symbol is newer than --max-glibc")
+NEEDS = error("binary-needs", "with --max-glibc: only the C library's own libraries are needed")
+
+
+@dataclass(frozen=True)
+class Platform:
+    """What a folder of binaries/ must hold; names of formats and machines as the child process gives them."""
+
+    format: str
+    machine: str
+    extension: str
+
+
+PLATFORMS = {
+    "linux64": Platform("ELF", "x86_64", ".so"),
+    "linux32": Platform("ELF", "x86", ".so"),
+    "win64": Platform("PE", "x86_64", ".dll"),
+    "win32": Platform("PE", "x86", ".dll"),
+    "darwin64": Platform("MachO", "x86_64", ".dylib"),
+    "x86_64-linux": Platform("ELF", "x86_64", ".so"),
+    "aarch64-linux": Platform("ELF", "aarch64", ".so"),
+    "x86_64-windows": Platform("PE", "x86_64", ".dll"),
+    "aarch64-windows": Platform("PE", "aarch64", ".dll"),
+    "x86_64-darwin": Platform("MachO", "x86_64", ".dylib"),
+    "aarch64-darwin": Platform("MachO", "aarch64", ".dylib"),
+}
+COMMON = """GetTypesPlatform GetVersion SetDebugLogging Instantiate FreeInstance SetupExperiment Terminate Reset
+    EnterInitializationMode ExitInitializationMode GetReal GetInteger GetBoolean GetString SetReal SetInteger SetBoolean
+    SetString GetFMUstate SetFMUstate FreeFMUstate SerializedFMUstateSize SerializeFMUstate DeSerializeFMUstate
+    GetDirectionalDerivative"""
+SLAVE = """SetRealInputDerivatives GetRealOutputDerivatives DoStep CancelStep GetStatus GetRealStatus GetIntegerStatus
+    GetBooleanStatus GetStringStatus"""
+#: The 34 functions of section 2.1 and 4.2 of the standard.
+FUNCTIONS = frozenset(f"fmi2{name}" for name in f"{COMMON} {SLAVE}".split())
+#: Libraries that every glibc system has.
+SYSTEM = re.compile(r"lib(c|m|dl|pthread|rt)\.so\.\d+|ld-linux[-_a-z0-9]*\.so\.\d+")
+HOMES = re.compile(rb"(?:/home/|/Users/|/root/|[A-Za-z]:\\Users\\)[\x21-\x7e]{2,120}")
+
+
+def findings(
+    contents: Contents,
+    description: Description,
+    folder: Path,
+    *,
+    platforms: tuple[str, ...] = (),
+    max_glibc: str | None = None,
+) -> Iterator[Finding]:
+    """All of this module's rules on the archive that lies extracted in `folder`."""
+    slave = description.first("CoSimulation")
+    identifier = "" if slave is None else slave.get("modelIdentifier", "")
+    there = sorted(name.split("/")[1] for name in contents.folders if re.fullmatch(r"binaries/[^/]+", name))
+    for wanted in platforms:
+        if wanted not in there:
+            yield WANTED.at(f"binaries/{wanted}", f"only {', '.join(there) or 'none'}", wanted)
+    tool = slave is not None and slave.get("needsExecutionTool") in ("true", "1")
+    if not there and not tool and not any(name.startswith("sources/") for name in contents.files):
+        yield NONE.at("binaries", "no binary and no source", "a library for at least one platform")
+    for name in there:
+        platform = PLATFORMS.get(name)
+        if platform is None:
+            yield PLATFORM.at(f"binaries/{name}", name, f"one of {', '.join(PLATFORMS)}")
+            continue
+        library = f"binaries/{name}/{identifier}{platform.extension}"
+        if library in contents.files:
+            yield from _library(library, folder, platform, max_glibc)
+        else:
+            others = [PurePosixPath(file).name for file in contents.files if file.startswith(f"binaries/{name}/")]
+            yield NAME.at(f"binaries/{name}", ", ".join(others) or "empty", library)
+
+
+def _library(library: str, folder: Path, platform: Platform, max_glibc: str | None) -> Iterator[Finding]:
+    path = folder.joinpath(*PurePosixPath(library).parts)
+    answer = child.run({"task": "inspect", "library": str(path)})
+    (facts,) = answer.facts("library") or [{}]
+    if answer.ended or facts.get("format") != platform.format or facts.get("machine") != platform.machine:
+        value = answer.ended or f"{facts.get('format')} for {facts.get('machine')}"
+        yield FORMAT.at(library, value, f"{platform.format} for {platform.machine}")
+        return
+    if not facts["shared"]:
+        yield FORMAT.at(library, "not a shared library", "a shared library")
+    exports = set(facts["exports"])
+    if missing := sorted(FUNCTIONS - exports):
+        yield EXPORTS.at(library, f"without {', '.join(missing)}", f"all {len(FUNCTIONS)} functions")
+    if extra := sorted(exports - FUNCTIONS):
+        yield EXTRA.at(library, f"{len(extra)} more symbols: {', '.join(extra[:5])}", "functions of the standard only")
+    if homes := sorted(set(HOMES.findall(path.read_bytes()))):
+        yield PATHS.at(library, homes[0].decode("ascii"), "no such path")
+    if max_glibc is not None and platform.format == "ELF":
+        yield from _needs(library, facts, max_glibc)
+
+
+def _needs(library: str, facts: dict[str, Any], max_glibc: str) -> Iterator[Finding]:
+    newest = max(facts["glibc"], key=version, default="0")
+    if version(newest) > version(max_glibc):
+        yield GLIBC.at(library, f"GLIBC_{newest}", f"at most GLIBC_{max_glibc}")
+    if foreign := [name for name in facts["needs"] if not SYSTEM.fullmatch(name)]:
+        yield NEEDS.at(library, f"needs {', '.join(foreign)}", "libc, libm, libdl, libpthread, librt, ld-linux only")
+
+
+def version(text: str) -> tuple[int, ...]:
+    """`2.17` as numbers."""
+    return tuple(int(part) for part in text.split("."))

@@ -1,0 +1,175 @@
+"""The process that touches machine code: `probe.py <facts file>`, the task as JSON on stdin.
+
+Task `inspect` parses a library's file; task `load` runs an instance through one step. Plain ctypes: what is under test
+is the FMU, not a wrapper.
+"""
+
+import ctypes
+import json
+import sys
+from collections.abc import Callable
+from ctypes import CFUNCTYPE, Structure, byref, c_char_p, c_double, c_int, c_size_t, c_uint, c_void_p
+from pathlib import Path
+from typing import Any
+
+STATUS = ("OK", "Warning", "Discard", "Error", "Fatal", "Pending")
+VALUES: dict[str, Any] = {"Real": c_double, "Integer": c_int, "Boolean": c_int, "String": c_char_p}
+#: A guid that no FMU has.
+OTHER_GUID = b"{00000000-0000-0000-0000-00000000e0e0}"
+
+Tell = Callable[[dict[str, Any]], None]
+LOGGER = CFUNCTYPE(None, c_void_p, c_char_p, c_int, c_char_p, c_char_p)
+ALLOCATE = CFUNCTYPE(c_void_p, c_size_t, c_size_t)
+FREE = CFUNCTYPE(None, c_void_p)
+FINISHED = CFUNCTYPE(None, c_void_p, c_int)
+
+
+class Callbacks(Structure):
+    """fmi2CallbackFunctions"""
+
+    _fields_ = (
+        ("logger", LOGGER),
+        ("allocateMemory", ALLOCATE),
+        ("freeMemory", FREE),
+        ("stepFinished", FINISHED),
+        ("componentEnvironment", c_void_p),
+    )
+
+
+class Slave:
+    """The functions of one library. Each call is told before it is made."""
+
+    def __init__(self, library: str, tell: Tell) -> None:
+        self.tell = tell
+        self.library = ctypes.CDLL(library)
+        libc = ctypes.CDLL("msvcrt" if sys.platform == "win32" else None)
+        libc.calloc.restype, libc.calloc.argtypes = c_void_p, (c_size_t, c_size_t)
+        libc.free.restype, libc.free.argtypes = None, (c_void_p,)
+        self.callbacks = Callbacks(LOGGER(lambda *_: None), ALLOCATE(libc.calloc), FREE(libc.free), FINISHED(), None)
+
+    def call(self, name: str, *arguments: Any, returns: Any = c_int) -> Any:
+        """Calls a function; a status that is not OK is a fact."""
+        self.tell({"call": name})
+        function = getattr(self.library, name)
+        function.restype = returns
+        result = function(*arguments)
+        if returns is c_int and result != 0:
+            self.tell({"status": [name, STATUS[result] if 0 <= result < len(STATUS) else str(result)]})
+        return result
+
+    def instantiate(self, guid: bytes, resources: str) -> c_void_p | None:
+        """An instance, or None when the FMU refuses."""
+        component = self.call(
+            "fmi2Instantiate",
+            c_char_p(b"validated"),
+            c_int(1),
+            c_char_p(guid),
+            c_char_p(resources.encode()),
+            byref(self.callbacks),
+            c_int(0),
+            c_int(0),
+            returns=c_void_p,
+        )
+        return None if component is None else c_void_p(component)
+
+    def read(self, component: c_void_p, kind: str, reference: int) -> Any:
+        """A variable's value, None when the FMU refuses."""
+        value = VALUES[kind]()
+        status = self.call(f"fmi2Get{kind}", component, byref(c_uint(reference)), c_size_t(1), byref(value))
+        if status not in (0, 1):
+            return None
+        return (value.value or b"").decode("utf-8", "replace") if kind == "String" else value.value
+
+
+def load(task: dict[str, Any], tell: Tell) -> None:
+    """Instantiates, initialises, reads, steps, reads again and frees."""
+    slave = Slave(task["library"], tell)
+    for name, fact in (("fmi2GetVersion", "version"), ("fmi2GetTypesPlatform", "types")):
+        tell({fact: (slave.call(name, returns=c_char_p) or b"").decode("utf-8", "replace")})
+    component = slave.instantiate(task["guid"].encode(), task["resources"])
+    tell({"instantiated": component is not None})
+    if component is None:
+        return
+    start, step = c_double(task["start"]), c_double(task["step"])
+    none = c_double(0.0)
+    slave.call("fmi2SetupExperiment", component, c_int(0), none, start, c_int(0), none)
+    slave.call("fmi2EnterInitializationMode", component)
+    for index, kind, reference in task["exact"]:
+        tell({"exact": [index, slave.read(component, kind, reference)]})
+    slave.call("fmi2ExitInitializationMode", component)
+    for index, kind, reference in task["all"]:
+        tell({"initialized": [index, slave.read(component, kind, reference)]})
+    slave.call("fmi2DoStep", component, start, step, c_int(1))
+    for index, kind, reference in task["all"]:
+        tell({"stepped": [index, slave.read(component, kind, reference)]})
+    slave.call("fmi2Terminate", component)
+    slave.call("fmi2FreeInstance", component, returns=None)
+    other = slave.instantiate(OTHER_GUID, task["resources"])
+    tell({"other guid accepted": other is not None})
+    if other is not None:
+        slave.call("fmi2FreeInstance", other, returns=None)
+
+
+def inspect(task: dict[str, Any], tell: Tell) -> None:
+    """Format, machine, exports and needs of a library; nothing of it is run."""
+    import lief  # noqa: PLC0415  only this task needs it
+
+    lief.logging.disable()
+    library: Any = lief.parse(task["library"])
+    if library is None:
+        tell({"library": {"format": "no known format", "machine": "no machine"}})
+        return
+    formats = {lief.Binary.FORMATS.ELF: "ELF", lief.Binary.FORMATS.PE: "PE", lief.Binary.FORMATS.MACHO: "MachO"}
+    machine = str(library.abstract.header.architecture).rsplit(".", 1)[-1].lower()
+    wide = library.abstract.header.is_64
+    names = {"x86_64": "x86_64" if wide else "x86", "x86": "x86_64" if wide else "x86", "arm64": "aarch64"}
+    kind = formats.get(library.format, str(library.format))
+    facts: dict[str, Any] = {"format": kind, "machine": names.get(machine, machine), "glibc": []}
+    facts["needs"] = [str(getattr(needed, "name", needed)) for needed in library.libraries]
+    facts["exports"], facts["shared"] = exported(library), is_shared(library)
+    if isinstance(library, lief.ELF.Binary):
+        versions = [
+            auxiliary.name for need in library.symbols_version_requirement for auxiliary in need.get_auxiliary_symbols()
+        ]
+        numbers = [str(name).removeprefix("GLIBC_") for name in versions if str(name).startswith("GLIBC_")]
+        facts["glibc"] = [number for number in numbers if number.replace(".", "").isdigit()]
+    tell({"library": facts})
+
+
+def exported(library: Any) -> list[str]:
+    """Names of exported symbols; Mach-O's leading underscore is cut off."""
+    import lief  # noqa: PLC0415
+
+    if isinstance(library, lief.PE.Binary):
+        found = library.get_export()
+        return [] if found is None else [str(entry.name) for entry in found.entries]
+    if isinstance(library, lief.MachO.Binary):
+        return [str(symbol.name).removeprefix("_") for symbol in library.exported_symbols]
+    return [str(symbol.name) for symbol in library.exported_symbols]
+
+
+def is_shared(library: Any) -> bool:
+    """Whether a process can load it as a library."""
+    import lief  # noqa: PLC0415
+
+    if isinstance(library, lief.PE.Binary):
+        return bool(library.header.has_characteristic(lief.PE.Header.CHARACTERISTICS.DLL))
+    if isinstance(library, lief.MachO.Binary):
+        return bool(library.header.file_type == lief.MachO.Header.FILE_TYPE.DYLIB)
+    return bool(library.header.file_type == lief.ELF.Header.FILE_TYPE.DYN)
+
+
+def main() -> None:
+    """Runs the task from stdin."""
+    task = json.load(sys.stdin)
+    with Path(sys.argv[1]).open("a", encoding="utf-8") as file:
+
+        def tell(fact: dict[str, Any]) -> None:
+            file.write(json.dumps(fact) + "\n")
+            file.flush()
+
+        {"load": load, "inspect": inspect}[task["task"]](task, tell)
+
+
+if __name__ == "__main__":
+    main()

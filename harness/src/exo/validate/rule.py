@@ -1,0 +1,69 @@
+"""Rules and findings: a rule is declared once, beside the code that checks it, and makes its findings."""
+
+from dataclasses import dataclass
+from enum import StrEnum
+
+
+class Severity(StrEnum):
+    """How bad a finding is."""
+
+    #: The standard forbids it, or no importer can use the FMU.
+    ERROR = "error"
+    #: The standard allows it, but a common importer or operating system stumbles over it.
+    WARNING = "warning"
+
+
+@dataclass(frozen=True)
+class Finding:
+    """One thing that is wrong: which rule, where, what is there and what was expected."""
+
+    rule: str
+    severity: Severity
+    #: File in the archive, with line and element where they are known.
+    where: str
+    value: str
+    expected: str
+
+    def __str__(self) -> str:
+        return f"{self.severity}: {self.where}: {self.value}; expected {self.expected} [{self.rule}]"
+
+
+@dataclass(frozen=True)
+class Rule:
+    """What must hold."""
+
+    id: str
+    severity: Severity
+    #: One sentence, true of a good FMU.
+    text: str
+
+    def at(self, where: str, value: object, expected: str) -> Finding:
+        """The finding that this rule is broken."""
+        return Finding(self.id, self.severity, where, printable(str(value)), expected)
+
+
+#: All rules by id, in the order of their modules.
+RULES: dict[str, Rule] = {}
+
+
+def error(rule_id: str, text: str) -> Rule:
+    """Declares a rule whose violation is an error."""
+    return _declare(Rule(rule_id, Severity.ERROR, text))
+
+
+def warning(rule_id: str, text: str) -> Rule:
+    """Declares a rule whose violation is a warning."""
+    return _declare(Rule(rule_id, Severity.WARNING, text))
+
+
+def printable(text: str, limit: int = 300) -> str:
+    """`text` without control characters (an archive may carry terminal codes in its names), shortened."""
+    safe = "".join(c if c.isprintable() else c.encode("unicode_escape").decode("ascii") for c in text)
+    return safe if len(safe) <= limit else f"{safe[:limit]}…"
+
+
+def _declare(rule: Rule) -> Rule:
+    if rule.id in RULES:
+        raise ValueError(f"two rules are called {rule.id}")
+    RULES[rule.id] = rule
+    return rule
