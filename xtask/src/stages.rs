@@ -134,7 +134,7 @@ pub fn test(keep_going: bool) -> Outcome {
         });
         stages.stage("exo validate", || {
             run(venv
-                .exo(["validate"])
+                .exo(["validate", "--strict"])
                 .args(FMUS.map(|fmu| format!("target/fmu/{}.fmu", fmu.name))))
         });
         stages.stage("pytest", || {

@@ -91,14 +91,15 @@ def findings(
 
 def _library(library: str, folder: Path, platform: Platform, max_glibc: str | None) -> Iterator[Finding]:
     path = folder.joinpath(*PurePosixPath(library).parts)
-    answer = child.run({"task": "inspect", "library": str(path)})
+    answer = child.run({"task": "inspect", "library": str(path), "machine": platform.machine})
     (facts,) = answer.facts("library") or [{}]
     if answer.ended or facts.get("format") != platform.format or facts.get("machine") != platform.machine:
         value = answer.ended or f"{facts.get('format')} for {facts.get('machine')}"
         yield FORMAT.at(library, value, f"{platform.format} for {platform.machine}")
         return
     if not facts["shared"]:
-        yield FORMAT.at(library, "not a shared library", "a shared library")
+        yield FORMAT.at(library, "no shared library, or a part of one", "a whole shared library")
+        return
     exports = set(facts["exports"])
     if missing := sorted(FUNCTIONS - exports):
         yield EXPORTS.at(library, f"without {', '.join(missing)}", f"all {len(FUNCTIONS)} functions")

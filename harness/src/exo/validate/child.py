@@ -40,7 +40,7 @@ class Answer:
         return str(calls[-1]) if calls else "loading the library"
 
 
-def run(task: dict[str, Any], *, timeout_s: float = TIMEOUT_S) -> Answer:
+def run(task: dict[str, Any]) -> Answer:
     """Runs `probe.py` on the task."""
     with tempfile.TemporaryDirectory(prefix="exo-validate-") as folder:
         facts = Path(folder) / "facts.jsonl"
@@ -54,12 +54,12 @@ def run(task: dict[str, Any], *, timeout_s: float = TIMEOUT_S) -> Answer:
                 cwd=folder,
             )
             try:
-                process.communicate(json.dumps(task).encode(), timeout=timeout_s)
+                process.communicate(json.dumps(task).encode(), timeout=TIMEOUT_S)
                 ended = _ending(process.returncode)
             except subprocess.TimeoutExpired:
                 process.kill()
                 process.wait()
-                ended = f"no answer within {timeout_s:g} s"
+                ended = f"no answer within {TIMEOUT_S:g} s"
         return Answer(_lines(facts), ended, streams.read_text(encoding="utf-8", errors="replace"))
 
 

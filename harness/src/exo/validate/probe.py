@@ -120,13 +120,16 @@ def inspect(task: dict[str, Any], tell: Tell) -> None:
         tell({"library": {"format": "no known format", "machine": "no machine"}})
         return
     formats = {lief.Binary.FORMATS.ELF: "ELF", lief.Binary.FORMATS.PE: "PE", lief.Binary.FORMATS.MACHO: "MachO"}
-    machine = str(library.abstract.header.architecture).rsplit(".", 1)[-1].lower()
-    wide = library.abstract.header.is_64
-    names = {"x86_64": "x86_64" if wide else "x86", "x86": "x86_64" if wide else "x86", "arm64": "aarch64"}
     kind = formats.get(library.format, str(library.format))
-    facts: dict[str, Any] = {"format": kind, "machine": names.get(machine, machine), "glibc": []}
+    # A universal Mach-O file has a part for each machine; LIEF's parts live no longer than their container.
+    container = lief.MachO.parse(task["library"]) if kind == "MachO" else None
+    if container is not None:
+        wanted = [index for index in range(container.size) if machine_of(container.at(index)) == task["machine"]]
+        library = container.at(wanted[0] if wanted else 0)
+    facts: dict[str, Any] = {"format": kind, "machine": machine_of(library), "glibc": []}
     facts["needs"] = [str(getattr(needed, "name", needed)) for needed in library.libraries]
-    facts["exports"], facts["shared"] = exported(library), is_shared(library)
+    facts["exports"] = exported(library)
+    facts["shared"] = is_shared(library) and is_whole(library, Path(task["library"]).stat().st_size)
     if isinstance(library, lief.ELF.Binary):
         versions = [
             auxiliary.name for need in library.symbols_version_requirement for auxiliary in need.get_auxiliary_symbols()
@@ -134,6 +137,14 @@ def inspect(task: dict[str, Any], tell: Tell) -> None:
         numbers = [str(name).removeprefix("GLIBC_") for name in versions if str(name).startswith("GLIBC_")]
         facts["glibc"] = [number for number in numbers if number.replace(".", "").isdigit()]
     tell({"library": facts})
+
+
+def machine_of(library: Any) -> str:
+    """x86_64, x86, aarch64, or LIEF's name."""
+    header = library.abstract.header
+    name = str(header.architecture).rsplit(".", 1)[-1].lower()
+    x86 = "x86_64" if header.is_64 else "x86"
+    return {"x86_64": x86, "x86": x86, "arm64": "aarch64"}.get(name, name)
 
 
 def exported(library: Any) -> list[str]:
@@ -157,6 +168,20 @@ def is_shared(library: Any) -> bool:
     if isinstance(library, lief.MachO.Binary):
         return bool(library.header.file_type == lief.MachO.Header.FILE_TYPE.DYLIB)
     return bool(library.header.file_type == lief.ELF.Header.FILE_TYPE.DYN)
+
+
+def is_whole(library: Any, size: int) -> bool:
+    """Whether all that is to be loaded lies within the file, and there is something."""
+    import lief  # noqa: PLC0415
+
+    if isinstance(library, lief.PE.Binary):
+        ends = [section.pointerto_raw_data + section.sizeof_raw_data for section in library.sections]
+    elif isinstance(library, lief.MachO.Binary):
+        ends = [segment.file_offset + segment.file_size for segment in library.segments]
+    else:
+        loaded = [segment for segment in library.segments if segment.type == lief.ELF.Segment.TYPE.LOAD]
+        ends = [segment.file_offset + segment.physical_size for segment in loaded]
+    return bool(ends) and max(ends) <= size
 
 
 def main() -> None:

@@ -1,0 +1,1 @@
+"""Broken FMUs: good ones in which one thing was changed."""

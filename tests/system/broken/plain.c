@@ -1,0 +1,97 @@
+/* The smallest FMI 2.0 co-simulation FMU: input u (reference 0), output y = u (reference 1). Written against the
+ * standard's text, not against this project's exporter. Each macro breaks one thing:
+ * CRASH, HANG, EXIT, LOUD, WARNS, ANY_GUID, NO_GUID, VERSION, EXTRA, HOME, INCOMPLETE. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#define API __attribute__((visibility("default")))
+#ifndef VERSION
+#define VERSION "2.0"
+#endif
+
+typedef struct { double u; } Instance;
+typedef void *Component;
+typedef struct {
+  void (*logger)(void *, const char *, int, const char *, const char *, ...);
+  void *(*allocate)(size_t, size_t);
+  void (*release)(void *);
+  void (*finished)(void *, int);
+  void *environment;
+} Callbacks;
+
+enum { OK = 0, WARNING = 1, ERROR = 3 };
+
+#ifdef EXTRA
+API int step_counter = 0;
+#endif
+#ifdef HOME
+const char *const volatile source = "/home/builder/fmu/plain.c";
+#endif
+API const char *fmi2GetTypesPlatform(void) { return "default"; }
+API const char *fmi2GetVersion(void) { return VERSION; }
+
+API Component fmi2Instantiate(const char *name, int type, const char *guid, const char *resources,
+                              const Callbacks *callbacks, int visible, int logging) {
+  (void)name, (void)type, (void)resources, (void)visible, (void)logging;
+#ifdef NO_GUID
+  return NULL;
+#endif
+#ifndef ANY_GUID
+  if (strcmp(guid, "{plain}") != 0) return NULL;
+#endif
+#ifdef LOUD
+  fprintf(stderr, "hello from the FMU\n");
+#endif
+  (void)guid;
+  return callbacks->allocate(1, sizeof(Instance));
+}
+API void fmi2FreeInstance(Component c) { free(c); }
+
+static double *at(Component c, unsigned reference) { return reference < 2 ? &((Instance *)c)->u : NULL; }
+API int fmi2GetReal(Component c, const unsigned *vr, size_t n, double *value) {
+  for (size_t i = 0; i < n; i++) {
+    if (!at(c, vr[i])) return ERROR;
+    value[i] = *at(c, vr[i]);
+  }
+  return OK;
+}
+API int fmi2SetReal(Component c, const unsigned *vr, size_t n, const double *value) {
+  for (size_t i = 0; i < n; i++) {
+    if (!at(c, vr[i])) return ERROR;
+    *at(c, vr[i]) = value[i];
+  }
+  return OK;
+}
+API int fmi2DoStep(Component c, double t, double h, int no_set) {
+  (void)c, (void)t, (void)h, (void)no_set;
+#ifdef CRASH
+  abort();
+#endif
+#ifdef EXIT
+  _exit(7);
+#endif
+#ifdef HANG
+  for (;;) pause();
+#endif
+#ifdef WARNS
+  return WARNING;
+#endif
+  return OK;
+}
+
+#define ACCEPTED(name) API int name(Component c) { (void)c; return OK; }
+#define REFUSED(name) API int name(Component c) { (void)c; return ERROR; }
+ACCEPTED(fmi2SetDebugLogging) ACCEPTED(fmi2SetupExperiment) ACCEPTED(fmi2EnterInitializationMode)
+ACCEPTED(fmi2ExitInitializationMode) ACCEPTED(fmi2Terminate) ACCEPTED(fmi2Reset)
+REFUSED(fmi2GetInteger) REFUSED(fmi2GetBoolean) REFUSED(fmi2GetString)
+REFUSED(fmi2SetInteger) REFUSED(fmi2SetBoolean) REFUSED(fmi2SetString)
+REFUSED(fmi2GetFMUstate) REFUSED(fmi2SetFMUstate) REFUSED(fmi2FreeFMUstate)
+REFUSED(fmi2SerializedFMUstateSize) REFUSED(fmi2SerializeFMUstate) REFUSED(fmi2DeSerializeFMUstate)
+REFUSED(fmi2GetDirectionalDerivative) REFUSED(fmi2SetRealInputDerivatives) REFUSED(fmi2GetRealOutputDerivatives)
+REFUSED(fmi2CancelStep) REFUSED(fmi2GetStatus) REFUSED(fmi2GetRealStatus) REFUSED(fmi2GetIntegerStatus)
+REFUSED(fmi2GetBooleanStatus)
+#ifndef INCOMPLETE
+REFUSED(fmi2GetStringStatus)
+#endif
