@@ -3,6 +3,7 @@
 //! | command | what | leaves |
 //! |---|---|---|
 //! | `cargo xtask fmu` | builds the archives | `target/fmu/*.fmu`, `target/fmu/test/` |
+//! | `cargo xtask ssp` | the coupled systems for other tools | `target/ssp/*.ssp` |
 //! | `cargo xtask test` | everything that is checked | |
 //! | `cargo xtask reproduce` | the paper's experiments | `results/report.html` |
 //! | `cargo xtask adversary --minutes N` | attacks on the energy tank | what breaks it, in `tests/adversary/regressions.txt` |
@@ -52,6 +53,8 @@ enum Command {
         #[arg(long)]
         bless: bool,
     },
+    /// Build the FMUs, then the coupled systems into target/ssp
+    Ssp,
     /// Run all checks: format, lints, documentation, Rust tests, importers, Python tests
     Test {
         /// Run the remaining stages after one has failed
@@ -78,6 +81,7 @@ enum Command {
 fn main() -> ExitCode {
     let outcome = match Arguments::parse().command {
         Command::Fmu { bless } => stages::fmu(bless),
+        Command::Ssp => stages::ssp(),
         Command::Test { keep_going } => stages::test(keep_going),
         Command::Reproduce => stages::reproduce(),
         Command::Adversary { minutes, seed } => stages::adversary(minutes, seed),

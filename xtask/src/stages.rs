@@ -75,6 +75,18 @@ pub fn fmu(bless: bool) -> Outcome {
     crate::fmu::build_all(bless)
 }
 
+/// `cargo xtask ssp`
+pub fn ssp() -> Outcome {
+    check_machine()?;
+    let mut stages = Stages::new(false);
+    let venv = stages.stage("venv", Venv::ready);
+    stages.stage("fmu", || crate::fmu::build_all(false));
+    if let Some(venv) = venv {
+        stages.stage("exo ssp", || run(&mut venv.exo(["ssp"])));
+    }
+    stages.finish()
+}
+
 /// `cargo xtask venv`
 pub fn venv() -> Outcome {
     Venv::ready().map(|_| ())

@@ -4,7 +4,7 @@ import json
 import re
 from collections import Counter
 from collections.abc import Iterable, Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from dataclasses import replace
 from math import isfinite
 from pathlib import Path
@@ -20,7 +20,10 @@ from exo import compare as comparison
 from exo import experiment, report, results, scenario, tool, validate
 from exo.errors import ExoError, FmuError, ScenarioError
 from exo.experiment import Experiment
-from exo.fmu import find_fmu_dir
+from exo.fmu import Archive, find_fmu_dir
+from exo.systems import ssp
+from exo.systems import system as systems
+from exo.systems.system import RECIPES
 from exo.tuning import guide as tuning
 from exo.tuning import show
 from exo.tuning.machine import Gains, Machine
@@ -106,6 +109,23 @@ def compare(
         f"largest difference {largest:.3g}"
     )
     raise typer.Exit(1 if beyond else 0)
+
+
+@app.command("ssp")
+def write_ssp(
+    out: Annotated[Path, typer.Option("--out", help="Folder for the archives.")] = Path("target/ssp"),
+    fmu_dir: FmuDir = None,
+) -> None:
+    """Writes the coupled systems as SSP archives, with the scenarios' parameter sets."""
+    with sentences(), ExitStack() as stack:
+        folder = find_fmu_dir(fmu_dir)
+        for name in RECIPES:
+            system = systems.load(name)
+            files = sorted(set(system.components.values()))
+            archives = {file: stack.enter_context(Archive(folder / file)) for file in files}
+            path = ssp.write(system=system, archives=archives, folder=out)
+            size, sets = path.stat().st_size // 1000, len(system.parameter_sets)
+            console.print(f"{path}  {size} kB, {sets} parameter sets", markup=False)
 
 
 @app.command("validate")

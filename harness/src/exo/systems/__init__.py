@@ -1,0 +1,1 @@
+"""Coupled systems for other tools: FMUs, wiring and parameter sets of the scenarios, as SSP archives."""

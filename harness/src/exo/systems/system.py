@@ -1,0 +1,113 @@
+"""What a coupled system is: FMUs, connections, inputs from outside and parameter sets, all taken from the scenarios.
+
+| system | FMUs | parameter sets, one a case of |
+|---|---|---|
+| `TestbedSystem` | controller, plant | `gain_study`, `wall` |
+| `ExoskeletonSystem` | controller, plant, operator | `arm_performance`, `arm_contact`, `arm_payload` (Exp 1 to 3) |
+
+The tools that run such a system exchange all values at once: the harness' `exchange_at_once`. Two things follow, which
+are the only ones that do not come from a scenario:
+
+* the torque comes one tick late, so that every parameter set has `controller.delay = 1` (its energy ledger must know);
+* some tools step once before they exchange for the first time. `controller.engage` is therefore an input of the system:
+  held at false until the first exchange, the controller does not engage where no position has been read.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from exo import scenario as scenarios
+from exo.errors import ScenarioError, close_matches
+from exo.scenario import PROFILE, Value
+from exo.simulate import Plan, plan
+
+#: Input of each system that lets its controller begin.
+ENGAGE = "engage"
+#: What every case gets because values are exchanged at once.
+LATE = {"controller.delay": 1}
+
+
+@dataclass(frozen=True)
+class Recipe:
+    """A system by the scenarios that it can run."""
+
+    title: str
+    scenarios: tuple[str, ...]
+    #: The parameter set that holds where a tool is told nothing.
+    default: str
+
+
+RECIPES = {
+    "TestbedSystem": Recipe(
+        title="Admittance controller and testbed; tau_h is the human's force (N), engage lets the controller begin",
+        scenarios=("gain_study", "wall"),
+        default="wall-passive_bounded_5_0.5",
+    ),
+    "ExoskeletonSystem": Recipe(
+        title="Arm controller, arm and operator; vacuum switches the suction pad, engage lets the controller begin",
+        scenarios=("arm_performance", "arm_contact", "arm_payload"),
+        default="arm_contact-passive_bounded",
+    ),
+}
+
+
+@dataclass(frozen=True, kw_only=True)
+class System:
+    """FMUs that are wired, and what their parameters can be."""
+
+    name: str
+    title: str
+    #: Component → archive, in the order in which they step.
+    components: Mapping[str, str]
+    #: Input → output, both as `component.variable`.
+    connections: Mapping[str, str]
+    #: Input of the system → inputs of components that it drives.
+    inputs: Mapping[str, tuple[str, ...]]
+    #: Name → `component.variable` → value.
+    parameter_sets: Mapping[str, Mapping[str, Value]]
+    default: str
+    #: Communication step (s).
+    step: float
+    #: Length of the default set's experiment (s).
+    duration: float
+
+
+def load(name: str) -> System:
+    """The system of this name, from the scenarios as they are now."""
+    if name not in RECIPES:
+        raise ScenarioError(f"unknown system {name}{close_matches(name, RECIPES)}")
+    recipe = RECIPES[name]
+    plans = case_plans(name)
+    first = next(iter(plans.values()))
+    wiring: dict[str, str] = {f"controller.{ENGAGE}": f"{PROFILE}.{ENGAGE}"}
+    for key, one in plans.items():
+        if dict(one.components) != dict(first.components) or one.step != first.step:
+            raise ScenarioError(f"{name}: {key} has other components or another step than the sets before it")
+        for target, source in one.inputs.items():
+            if wiring.setdefault(target, source) != source:
+                raise ScenarioError(f"{name}: {key} wires {target} to {source}, others to {wiring[target]}")
+    outside: dict[str, tuple[str, ...]] = {}
+    for target, source in wiring.items():
+        component, output = source.split(".", 1)
+        if component == PROFILE:
+            outside[output] = (*outside.get(output, ()), target)
+    return System(
+        name=name,
+        title=recipe.title,
+        components=first.components,
+        connections={to: origin for to, origin in wiring.items() if origin.split(".", 1)[0] != PROFILE},
+        inputs=outside,
+        parameter_sets={key: one.parameters for key, one in plans.items()},
+        default=recipe.default,
+        step=first.step,
+        duration=plans[recipe.default].duration,
+    )
+
+
+def case_plans(name: str) -> dict[str, Plan]:
+    """The system's cases by the name of their parameter set, `<scenario>-<case>`."""
+    return {
+        f"{data.id}-{case.id}": plan(scenario=data, case=case, overrides=LATE)
+        for data in map(scenarios.load, RECIPES[name].scenarios)
+        for case in data.cases
+    }
