@@ -3,7 +3,7 @@
 //! | command | what | leaves |
 //! |---|---|---|
 //! | `cargo xtask fmu` | builds the archives | `target/fmu/*.fmu`, `target/fmu/test/` |
-//! | `cargo xtask ssp` | the coupled systems for other tools | `target/ssp/*.ssp` |
+//! | `cargo xtask ssp` | the coupled systems for other tools | `target/ssp/*.ssp`, `*.fmu` |
 //! | `cargo xtask test` | everything that is checked | |
 //! | `cargo xtask reproduce` | the paper's experiments | `results/report.html` |
 //! | `cargo xtask adversary --minutes N` | attacks on the energy tank | what breaks it, in `tests/adversary/regressions.txt` |

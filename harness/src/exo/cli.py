@@ -21,7 +21,7 @@ from exo import experiment, report, results, scenario, tool, validate
 from exo.errors import ExoError, FmuError, ScenarioError
 from exo.experiment import Experiment
 from exo.fmu import Archive, find_fmu_dir
-from exo.systems import ssp
+from exo.systems import container, ssp
 from exo.systems import system as systems
 from exo.systems.system import RECIPES
 from exo.tuning import guide as tuning
@@ -116,16 +116,18 @@ def write_ssp(
     out: Annotated[Path, typer.Option("--out", help="Folder for the archives.")] = Path("target/ssp"),
     fmu_dir: FmuDir = None,
 ) -> None:
-    """Writes the coupled systems as SSP archives, with the scenarios' parameter sets."""
+    """Writes the coupled systems: SSP archives with the scenarios' parameter sets, and containers, each one FMU."""
     with sentences(), ExitStack() as stack:
         folder = find_fmu_dir(fmu_dir)
         for name in RECIPES:
             system = systems.load(name)
             files = sorted(set(system.components.values()))
             archives = {file: stack.enter_context(Archive(folder / file)) for file in files}
-            path = ssp.write(system=system, archives=archives, folder=out)
-            size, sets = path.stat().st_size // 1000, len(system.parameter_sets)
-            console.print(f"{path}  {size} kB, {sets} parameter sets", markup=False)
+            for path in (
+                ssp.write(system=system, archives=archives, folder=out),
+                container.write(system=system, archives=archives, folder=out),
+            ):
+                console.print(f"{path}  {path.stat().st_size // 1000} kB", markup=False)
 
 
 @app.command("validate")
