@@ -69,7 +69,7 @@ def test_all_parameters_are_read_back(archives: Mapping[str, Archive]) -> None:
     [
         ({"controller.tau_hh": "profile.tau_h"}, r"TestbedController\.fmu: no variable tau_hh \(close matches: tau_h"),
         ({"controller.engage": "plant.q"}, r"Testbed\.fmu: q: expected a Boolean output, this is output of type Real"),
-        ({"controller.M_n": "plant.q"}, "M_n: only inputs can be wired, this is parameter"),
+        ({"controller.T": "plant.q"}, "T: only inputs and tunables can be wired, this is a fixed parameter"),
         ({"plant.tau_a": "controller.tick"}, "tick: expected a Real output, this is output of type Integer"),
         ({"plant.tau_a": "controller.torque"}, r"TestbedController\.fmu: no variable torque"),
     ],

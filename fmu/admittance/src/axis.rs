@@ -86,9 +86,13 @@ impl Axis {
         Self::new(self.wanted, self.bounds, q)
     }
 
-    /// On its way to other gains, which it has after `ticks` ticks, or at the next one. The caller has checked them.
+    /// On its way to other gains, which it has after `ticks` ticks, or at the next one; wanting the same again, as an importer
+    /// does that sets all it has at every step, starts nothing anew. The caller has checked them.
     #[must_use]
     pub fn tuned(self, wanted: Gains, ticks: u32) -> Self {
+        if wanted == self.wanted {
+            return self;
+        }
         Self {
             wanted,
             remaining: ticks.max(1),

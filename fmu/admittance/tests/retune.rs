@@ -125,3 +125,38 @@ fn tuning_at_every_tick_creates_nothing() {
         }
     }
 }
+
+/// An importer may set all it has at every step.
+#[test]
+fn wanting_the_same_gains_at_every_tick_is_wanting_them_once() {
+    let (soft, stiff) = (
+        unlimited(5.0, 0.5, 30.0, 10.0),
+        unlimited(5.0, 0.5, 60.0, 20.0),
+    );
+    let forces = |again: bool| -> Vec<f64> {
+        let mut law = robot::law(Law::PassiveBounded, 0.002, soft);
+        (0..200)
+            .map(|k| {
+                if k == 20 || (again && k > 20) {
+                    law.tune([stiff]).expect("valid gains");
+                }
+                tick(&mut law, 0.001 * f64::from(k), 5.0).f.x
+            })
+            .collect()
+    };
+    assert_eq!(forces(true), forces(false));
+}
+
+/// Over the tuning time of 0.1 s, 50 ticks: K y with K on a straight line, on a robot that moves with 1 m/s.
+#[test]
+fn changed_gains_come_into_force_on_a_straight_line() {
+    let light = |K: f64| unlimited(1e9, 0.0, K, 1e-6); // a nominal that stands still: y = −dq
+    let mut law = robot::law(Law::Passive, 0.002, light(30.0));
+    (0..20).for_each(|k| drop(tick(&mut law, 0.002 * f64::from(k), 0.0)));
+    law.tune([light(80.0)]).expect("valid gains");
+    for k in 1..=60 {
+        let f = tick(&mut law, 0.002 * f64::from(19 + k), 0.0).f.x;
+        let expected = -(30.0 + f64::from(k.min(50)));
+        assert!((f - expected).abs() < 1e-3, "tick {k}: {f} N"); // K K_P e, e of some 0.2 m
+    }
+}

@@ -74,8 +74,9 @@ class Part:
         archive = instance.archive
         for name in inputs:
             variable = archive.variable(name)
-            if variable.causality != "input":
-                raise FmuError(f"{archive.path.name}: {name}: only inputs can be wired, this is {variable.causality}")
+            if variable.causality != "input" and variable.variability != "tunable":
+                what = f"a {variable.variability} {variable.causality}"
+                raise FmuError(f"{archive.path.name}: {name}: only inputs and tunables can be wired, this is {what}")
         self.instance = instance
         self.inputs = {kind: refs for kind, refs in instance.references(inputs).items() if refs}
         self.outputs = {kind: refs for kind, refs in instance.references(archive.names("output")).items() if refs}

@@ -157,8 +157,10 @@ impl Joints {
     /// The first gain out of its range; the gains stay as they were.
     pub fn tune(&mut self, gains: JointGains) -> Result<(), ParameterError> {
         gains.check()?;
-        self.wanted = gains;
-        self.remaining = self.settings.tuning_ticks().max(1);
+        if gains != self.wanted {
+            self.wanted = gains;
+            self.remaining = self.settings.tuning_ticks().max(1);
+        }
         Ok(())
     }
 
