@@ -99,7 +99,7 @@ def test_each_foreign_part_has_its_licence_texts(bill: dict[str, Any], fmu: Path
             folder = f"documentation/licenses/{part['bom-ref']}/"
             texts = [name for name in names if name.startswith(folder)]
             assert texts, part["name"]
-            assert all(len(archive.read(name)) > 100 for name in texts)
+            assert max(len(archive.read(name)) for name in texts) > 500  # one may be a line that names the others
             assert re.search(
                 rf"^{re.escape(part['bom-ref'])} +{re.escape(part['licenses'][0]['expression'])}$",
                 overview,
