@@ -234,6 +234,10 @@ class Instance:
         """fmi2ExitInitializationMode."""
         self._call("fmi2ExitInitializationMode")
 
+    def do_step(self, t: float, step: float) -> None:
+        """fmi2DoStep."""
+        self._call("fmi2DoStep", c_double(t), c_double(step), c_int(1))
+
     def terminate(self) -> None:
         """fmi2Terminate."""
         self._call("fmi2Terminate")
