@@ -70,7 +70,7 @@ pub fn git_hash() -> String {
 }
 
 /// Compiler flags that replace this machine's paths. Where several prefixes match, the last one wins.
-fn remapping() -> Outcome<OsString> {
+pub fn remapping() -> Outcome<OsString> {
     let mut replaced = vec![(cargo_home(), "/cargo".to_owned())];
     // The sources' folder is named after the registry that the machine uses. They must be there to be listed.
     run(&mut cargo(["fetch", "--locked", "--quiet"]))?;

@@ -7,6 +7,7 @@
 //! | `cargo xtask test` | everything that is checked | |
 //! | `cargo xtask reproduce` | the paper's experiments | `results/report.html` |
 //! | `cargo xtask adversary --minutes N` | attacks on the energy tank | what breaks it, in `tests/adversary/regressions.txt` |
+//! | `cargo xtask law` | the C library | `target/law/{f64,f32}` |
 //! | `cargo xtask bench` | how fast the FMUs and the harness are | |
 //! | `cargo xtask venv` | the Python environment of the others | `.venv` |
 //!
@@ -14,17 +15,21 @@
 //! |---|---|
 //! | [`catalogue`] | the table of the FMUs, and their committed descriptions |
 //! | [`build`] | libraries without a trace of this machine |
+//! | [`firmware`] | the C library for a microcontroller, and its size |
 //! | [`fmu`] | archives from libraries |
 //! | [`linked`] | what is linked into a library, with its licence texts |
 //! | [`licence`] | which licences may be |
 //! | [`wiring`] | which output belongs to which input |
+//! | [`law`] | the C library: header, static libraries, example |
 //! | [`venv`] | the Python environment |
 //! | [`stages`] | commands made of stages, each with its time |
 //! | [`process`] | other programs, and what went wrong with them |
 
 mod build;
 mod catalogue;
+mod firmware;
 mod fmu;
+mod law;
 mod licence;
 mod linked;
 #[cfg(test)]
@@ -61,6 +66,12 @@ enum Command {
         #[arg(long)]
         keep_going: bool,
     },
+    /// Build the C library into target/law: f64 and f32, and for a Cortex-M4F where there is a toolchain
+    Law {
+        /// Also rewrite the committed header
+        #[arg(long)]
+        bless: bool,
+    },
     /// Run the paper's experiments from a fresh clone to results/report.html
     Reproduce,
     /// Search for what empties the energy tank; what is found is kept as a regression
@@ -83,6 +94,7 @@ fn main() -> ExitCode {
         Command::Fmu { bless } => stages::fmu(bless),
         Command::Ssp => stages::ssp(),
         Command::Test { keep_going } => stages::test(keep_going),
+        Command::Law { bless } => law::build_all(bless),
         Command::Reproduce => stages::reproduce(),
         Command::Adversary { minutes, seed } => stages::adversary(minutes, seed),
         Command::Bench => stages::bench(),

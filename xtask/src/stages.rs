@@ -127,6 +127,7 @@ pub fn test(keep_going: bool) -> Outcome {
         });
     }
     stages.stage("fmu", || crate::fmu::build_all(false));
+    stages.stage("law", || crate::law::build_all(false));
     if let Some(venv) = &venv {
         stages.stage("cargo test", || {
             with_libclang(

@@ -90,6 +90,21 @@ impl<const N: usize> Admittance<N> {
         self.axes.bound(bounds)
     }
 
+    /// Counts positions from a place that is further on by `by` (m), and keeps to `bounds`, which are counted from there.
+    /// While the law is out of the loop.
+    ///
+    /// # Errors
+    /// The first bound out of its range; nothing has changed.
+    pub fn count_from(
+        &mut self,
+        by: &SVector<Real, N>,
+        bounds: [Bounds; N],
+    ) -> Result<(), ParameterError> {
+        self.axes.bound(bounds)?;
+        self.ledger = self.ledger.counted_from(by);
+        Ok(())
+    }
+
     /// Other gains: on a straight line over the tuning time, each step taken over so that the stored energy does not rise.
     ///
     /// # Errors

@@ -202,6 +202,15 @@ impl<const N: usize> Ledger<N> {
         }
     }
 
+    /// The same with positions counted from a place that is further on by `by` (m).
+    #[must_use]
+    pub fn counted_from(self, by: &SVector<Real, N>) -> Self {
+        Self {
+            q: self.q.map(|q| q - by),
+            ..self
+        }
+    }
+
     /// Opens the sample that begins now: the force `f` (N) on the robot that this tick says, and the energy
     /// (K/alpha) f_h v_m T (J) that the human's port brings.
     #[must_use]

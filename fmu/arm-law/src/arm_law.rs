@@ -2,6 +2,7 @@
 //!
 //! It knows no FMI: the FMU ArmController and the C library are shells around it.
 
+use crate::displacement::Origin;
 use crate::form::Form;
 use crate::joint_space::{JointGains, JointParameters, Nominal};
 use crate::kinematics::{Kinematics, Pose};
@@ -134,6 +135,9 @@ pub struct ArmLaw {
     q: Vector3<Real>,
     /// the nominal's velocity at the last tick at which it was free, in its own coordinates: m/s or rad/s
     v_n: Vector3<Real>,
+    bounds: [Bounds; 3],
+    /// where angles and positions are counted from, if not from zero
+    origin: Option<Origin>,
 }
 
 impl ArmLaw {
@@ -176,6 +180,8 @@ impl ArmLaw {
                 .transpose()?,
             q: Vector3::zeros(),
             v_n: Vector3::zeros(),
+            bounds: parameters.bounds,
+            origin: None,
         })
     }
 
@@ -196,6 +202,48 @@ impl ArmLaw {
         self.form.tune_joints(gains)
     }
 
+    /// Counts from the joint angles `q_0` (rad) and from where the handle is there, from the next tick on: `q` of the
+    /// [`Inputs`], and p, p_n of the [`Outputs`]. The [`Bounds`] stay where they are. Only while the law is out of the loop,
+    /// and in task space; in joint space nothing changes.
+    ///
+    /// Single precision needs it, see [`displacement`](crate::displacement).
+    ///
+    /// # Errors
+    /// A bound that the origin's distance rounds away; the origin stays as it was.
+    pub fn count_from(&mut self, q_0: &Vector3<Real>) -> Result<(), ParameterError> {
+        let Form::Task(task_space) = &mut self.form else {
+            return Ok(());
+        };
+        let origin = Origin::new(&self.kinematics, q_0);
+        let mut bounds = self.bounds;
+        for (bounds, p_0) in bounds.iter_mut().zip(origin.p()) {
+            bounds.q_min -= p_0;
+            bounds.q_max -= p_0;
+        }
+        let by = q_0 - self.origin.map_or(Vector3::zeros(), |before| *before.q());
+        task_space.count_from(&by, bounds)?;
+        self.q -= by;
+        self.origin = Some(origin);
+        Ok(())
+    }
+
+    /// Position of the handle from which positions are counted, base frame, m; `None`: from zero.
+    pub fn origin(&self) -> Option<&Vector3<Real>> {
+        self.origin.as_ref().map(Origin::p)
+    }
+
+    /// Joint angles counted from zero, rad.
+    pub fn absolute(&self, q: &Vector3<Real>) -> Vector3<Real> {
+        self.origin.map_or(*q, |origin| origin.q() + q)
+    }
+
+    fn pose(&self, q: &Vector3<Real>) -> Pose {
+        match &self.origin {
+            Some(origin) => origin.displaced(&self.kinematics, q),
+            None => self.kinematics.at(q),
+        }
+    }
+
     /// One tick.
     ///
     /// # Errors
@@ -214,7 +262,7 @@ impl ArmLaw {
                 } else {
                     Demand::Rest
                 };
-                let pose = self.kinematics.at(&inputs.q);
+                let pose = self.pose(&inputs.q);
                 let ft = self.sensed(&pose, inputs);
                 self.run(&pose, &inputs.q, ft, demand)
                     .inspect_err(|NotFinite| *self = before)
@@ -234,7 +282,7 @@ impl ArmLaw {
         } = *inputs;
         let is_known = inputs.q.iter().all(|q| q.is_finite());
         let q = if is_known { inputs.q } else { self.q };
-        let pose = self.kinematics.at(&q);
+        let pose = self.pose(&q);
         let ft = self.sensed(&pose, &Inputs { q, ..*inputs });
         let demand = supervisor.step(&supervision::Inputs {
             enable: signals.enable,
@@ -270,7 +318,7 @@ impl ArmLaw {
 
     /// No torque, the nominal where the arm was last known to be.
     fn abandon(&mut self, ft: Conditioned) -> Outputs {
-        let pose = self.kinematics.at(&self.q);
+        let pose = self.pose(&self.q);
         self.stiff_hand = self.stiff_hand.at_rest();
         let (outcome, nominal) = self.form.abandon(&pose, &self.q);
         Outputs {
@@ -347,7 +395,7 @@ impl ArmLaw {
         let ft = self.conditioner.step(&Sample {
             wrench: inputs.hand,
             R: turn.R(),
-            q: inputs.q,
+            q: self.absolute(&inputs.q),
             valid: inputs.ft_valid,
             tare: inputs.tare,
         });

@@ -61,15 +61,17 @@ impl Kinematics {
     /// The singular values of J are |ϱ| (the handle on the yaw axis) and those of its pitch block, whose smaller one is
     /// |det|/σ_max with det = L₁(h_x sin q₃ + h_z cos q₃): no iteration, and exact where it matters, near zero.
     pub fn at(&self, q: &Vector3<Real>) -> Pose {
+        self.turned([q[0], q[1], q[2]].map(real::sin_cos))
+    }
+
+    /// The handle at joint angles given by sine and cosine.
+    pub(crate) fn turned(&self, [(s_1, c_1), (s_2, c_2), (s_3, c_3)]: [(Real, Real); 3]) -> Pose {
         let Self {
             A1,
             L1,
             handle_x: h_x,
             handle_z: h_z,
         } = *self;
-        let (s_1, c_1) = real::sin_cos(q[0]);
-        let (s_2, c_2) = real::sin_cos(q[1]);
-        let (s_3, c_3) = real::sin_cos(q[2]);
         let (s_b, c_b) = (s_2 * c_3 + c_2 * s_3, c_2 * c_3 - s_2 * s_3);
 
         let (r_x, r_z) = (h_x * c_b - h_z * s_b, h_x * s_b + h_z * c_b);

@@ -2,6 +2,7 @@
 //!
 //! | module | what |
 //! |---|---|
+//! | [`displacement`] | the handle's displacement from a pose, for single precision |
 //! | [`form`] | the coordinates in which the nominal lives, and the law in them |
 //! | [`joint_space`] | the law in joint space, with M_n(q) and C_n(q, dq) |
 //! | [`arm_law`] | the complete law: from what is sensed at a tick to the torques |
@@ -25,6 +26,7 @@
 )]
 
 pub mod arm_law;
+pub mod displacement;
 pub mod form;
 pub mod joint_space;
 pub mod kinematics;

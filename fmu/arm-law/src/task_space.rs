@@ -81,6 +81,21 @@ impl TaskSpace {
         })
     }
 
+    /// Counts the joint angles from a place that is further on by `by` (rad), and keeps to `bounds`, which are counted from
+    /// where the handle is there. While the law is out of the loop.
+    ///
+    /// # Errors
+    /// The first bound out of its range; nothing has changed.
+    pub fn count_from(
+        &mut self,
+        by: &Vector3<Real>,
+        bounds: [Bounds; 3],
+    ) -> Result<(), ParameterError> {
+        self.axes.bound(bounds)?;
+        self.ledger = self.ledger.counted_from(by);
+        Ok(())
+    }
+
     /// Other gains: on a straight line over the tuning time, each step taken over so that the stored energy does not rise.
     ///
     /// # Errors

@@ -2,6 +2,7 @@
 //! library only; the functions called are the generic ones behind the C symbols.
 
 use arm_controller::ArmController;
+use counting::{Counting, allocations};
 use exoskeleton_arm::ExoskeletonArm;
 use exoskeleton_arms::ExoskeletonArms;
 use export::ffi::{CO_SIMULATION, Callbacks, Component, Status};
@@ -9,59 +10,12 @@ use export::functions as f;
 use export::legality::Function;
 use export::model::Model;
 use human_operator::HumanOperator;
-use std::alloc::{GlobalAlloc, Layout, System};
-use std::cell::Cell;
 use std::ffi::CString;
 use testbed::Testbed;
 use testbed_controller::TestbedController;
 
-/// The system's allocator, counting by thread: the test harness's own threads do not disturb.
-struct Counting;
-
-thread_local! {
-    static ALLOCATIONS: Cell<u64> = const { Cell::new(0) };
-}
-
-fn count() {
-    let _ = ALLOCATIONS.try_with(|n| n.set(n.get() + 1));
-}
-
-// SAFETY: every call goes to the system's allocator with its arguments as they are.
-unsafe impl GlobalAlloc for Counting {
-    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
-        count();
-        // SAFETY: the caller's contract.
-        unsafe { System.alloc(layout) }
-    }
-
-    unsafe fn alloc_zeroed(&self, layout: Layout) -> *mut u8 {
-        count();
-        // SAFETY: the caller's contract.
-        unsafe { System.alloc_zeroed(layout) }
-    }
-
-    unsafe fn realloc(&self, pointer: *mut u8, layout: Layout, size: usize) -> *mut u8 {
-        count();
-        // SAFETY: the caller's contract.
-        unsafe { System.realloc(pointer, layout, size) }
-    }
-
-    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
-        count();
-        // SAFETY: the caller's contract.
-        unsafe { System.dealloc(pointer, layout) }
-    }
-}
-
 #[global_allocator]
 static ALLOCATOR: Counting = Counting;
-
-/// Allocations, reallocations and frees of this thread during `work`.
-fn allocations<R>(work: impl FnOnce() -> R) -> (u64, R) {
-    let before = ALLOCATIONS.get();
-    let result = work();
-    (ALLOCATIONS.get() - before, result)
-}
 
 /// A silent instance, initialized.
 fn initialized<M: Model>() -> Component {

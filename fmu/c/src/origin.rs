@@ -1,0 +1,65 @@
+//! Where positions are counted from in single precision.
+//!
+//! The law lives on small differences of positions: q_k − q_{k−1} for the velocity, q_n − q for the spring. A float has 24
+//! bits, so a position far from zero leaves few of them for a difference. In single precision the library therefore counts
+//! positions from where the law engaged. The difference q − q_0 is formed in double precision, once per position and tick,
+//! and then rounded; all else is single precision. In double precision q_0 stays 0.
+
+use crate::Real;
+use nalgebra::SVector;
+
+/// The place q_0 from which positions are counted; `None`: from zero, which changes no bit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Origin<const N: usize> {
+    q_0: Option<SVector<f64, N>>,
+    engaged: bool,
+}
+
+/// A move of the origin.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Move<const N: usize> {
+    /// To where.
+    pub(crate) q_0: SVector<Real, N>,
+    /// By how much.
+    pub(crate) by: SVector<Real, N>,
+}
+
+impl<const N: usize> Default for Origin<N> {
+    /// Zero, before any tick.
+    fn default() -> Self {
+        Self {
+            q_0: None,
+            engaged: false,
+        }
+    }
+}
+
+impl<const N: usize> Origin<N> {
+    /// The place, unless it is zero.
+    pub(crate) fn place(&self) -> Option<&SVector<f64, N>> {
+        self.q_0.as_ref()
+    }
+
+    /// Moves to the positions `q` of a tick at which the law may engage, if it is out of the loop.
+    pub(crate) fn moves(&mut self, q: &SVector<f64, N>, engage: bool) -> Option<Move<N>> {
+        let is_known = q.iter().all(|q| q.is_finite());
+        if !(cfg!(feature = "f32") && engage && !self.engaged && is_known) {
+            return None;
+        }
+        let before = self.q_0.replace(*q).unwrap_or_else(SVector::zeros);
+        Some(Move {
+            q_0: q.map(|q| q as Real),
+            by: (q - before).map(|q| q as Real),
+        })
+    }
+
+    /// What has become of the tick.
+    pub(crate) fn ticked(&mut self, engaged: bool) {
+        self.engaged = engaged;
+    }
+
+    /// q − q_0.
+    pub(crate) fn counted(&self, q: &SVector<f64, N>) -> SVector<Real, N> {
+        self.q_0.map_or(*q, |q_0| q - q_0).map(|q| q as Real)
+    }
+}

@@ -1,0 +1,141 @@
+//! The C library: header, static libraries in both precisions, what shows that they cannot panic, and what a
+//! microcontroller would get.
+
+use crate::build::remapping;
+use crate::firmware;
+use crate::process::{Failure, Outcome, at, cargo, program, root, run};
+use std::path::{Path, PathBuf};
+
+/// One precision of the library.
+pub struct Precision {
+    /// Folder in `target/law`.
+    pub folder: &'static str,
+    /// The package.
+    pub package: &'static str,
+    /// Name of the library.
+    pub library: &'static str,
+    /// What a C compiler must be told.
+    define: Option<&'static str>,
+}
+
+/// Both.
+pub const PRECISIONS: [Precision; 2] = [
+    Precision {
+        folder: "f64",
+        package: "exo-law",
+        library: "libexo_law.a",
+        define: None,
+    },
+    Precision {
+        folder: "f32",
+        package: "exo-law-f32",
+        library: "libexo_law_f32.a",
+        define: Some("-DEXO_LAW_F32"),
+    },
+];
+
+fn source() -> PathBuf {
+    root().join("fmu/c")
+}
+
+/// The header's committed place.
+fn committed() -> PathBuf {
+    source().join("include/exo_law.h")
+}
+
+/// The header that the source gives.
+fn header() -> Outcome<String> {
+    let found = |error: &dyn std::fmt::Display| Failure::Found(format!("cbindgen: {error}"));
+    let config = cbindgen::Config::from_file(source().join("cbindgen.toml"))
+        .map_err(|error| found(&error))?;
+    let bindings = cbindgen::Builder::new()
+        .with_config(config)
+        .with_src(source().join("src/lib.rs"))
+        .generate()
+        .map_err(|error| found(&error))?;
+    let mut text = Vec::new();
+    bindings.write(&mut text);
+    String::from_utf8(text).map_err(|error| found(&error))
+}
+
+/// Builds `target/law/{f64,f32}`: library, header, and the example, which replays recorded vectors.
+pub fn build_all(bless: bool) -> Outcome {
+    let text = header()?;
+    if bless {
+        std::fs::write(committed(), &text).map_err(at(&committed()))?;
+    } else if !is_committed(&text) {
+        println!(
+            "note: fmu/c/include/exo_law.h is out of date: `cargo xtask law --bless`, then read the diff"
+        );
+    }
+    for precision in &PRECISIONS {
+        let folder = root().join("target/law").join(precision.folder);
+        std::fs::create_dir_all(&folder).map_err(at(&folder))?;
+        let header = folder.join("exo_law.h");
+        std::fs::write(&header, &text).map_err(at(&header))?;
+        let library = folder.join(precision.library);
+        let built = build(precision)?;
+        std::fs::copy(&built, &library).map_err(at(&built))?;
+        example(precision, &folder)?;
+        println!("target/law/{}/{}", precision.folder, precision.library);
+    }
+    for (package, example) in [("arm-law", "no_panic"), ("arm-law-f32", "no_panic_f32")] {
+        let flags = ["build", "--locked", "--release", "--package", package];
+        run(cargo(flags).args(["--example", example]))?;
+    }
+    firmware::report()
+}
+
+fn is_committed(text: &str) -> bool {
+    std::fs::read_to_string(committed()).is_ok_and(|committed| committed == text)
+}
+
+/// The static library for this machine.
+fn build(precision: &Precision) -> Outcome<PathBuf> {
+    let target = root().join("target/law-build");
+    let mut build = cargo([
+        "rustc",
+        "--locked",
+        "--profile",
+        "law",
+        "--package",
+        precision.package,
+        "--lib",
+        "--crate-type",
+        "staticlib",
+        "--features",
+        "freestanding",
+        "--target-dir",
+    ]);
+    run(build
+        .arg(&target)
+        .env("CARGO_ENCODED_RUSTFLAGS", remapping()?))?;
+    Ok(target.join("law").join(precision.library))
+}
+
+/// `replay`, from C source, linked with the library: that it links shows that no path of the law panics.
+fn example(precision: &Precision, folder: &Path) -> Outcome {
+    let mut cc = program("cc", ["-std=c99", "-Wall", "-Wextra", "-Wpedantic", "-O2"]);
+    cc.args(precision.define)
+        .arg("-I")
+        .arg(folder)
+        .arg(source().join("examples/replay.c"))
+        .arg(folder.join(precision.library))
+        .args(["-lm", "-o"])
+        .arg(folder.join("replay"));
+    run(&mut cc)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_committed_header_is_what_the_source_gives() {
+        let text = header().unwrap_or_else(|failure| panic!("{failure}"));
+        assert!(
+            is_committed(&text),
+            "run `cargo xtask law --bless` and read the diff"
+        );
+    }
+}
