@@ -1,12 +1,12 @@
-//! Shows at link time that no path of a tick, and of what else is called between ticks, panics:
-//! `cargo build --release -p arm-law --example no_panic`.
+//! Shows at link time that no path of a tick panics: `cargo build --release -p arm-law --example no_panic`.
 //!
 //! Where the compiler cannot rule a panic out, `#[no_panic]` leaves a call of a function that does not exist, and the
 //! linker says so. Without optimization it rules out little; the attribute is then left away. `cargo xtask law` builds
 //! this in both precisions.
 //!
-//! What builds a law calls its checks through pointers, of which the compiler assumes the worst where panics unwind. That
-//! no path panics there either is shown by the C library, which links without a panic handler's callee.
+//! What is called besides the tick checks parameters through pointers to functions, of which the compiler assumes the worst
+//! where panics unwind. That no path panics there either is shown by the C library, in which they do not: it links
+//! although the function that its panic handler calls does not exist.
 
 #[cfg(not(feature = "f32"))]
 use arm_law as law;
@@ -35,24 +35,6 @@ fn tick(arm: &mut ArmLaw, inputs: &Inputs) -> Result<Outputs, NotFinite> {
 
 #[cfg_attr(not(debug_assertions), no_panic::no_panic)]
 #[inline(never)]
-fn tune(arm: &mut ArmLaw, gains: [Gains; 3]) -> Result<(), ParameterError> {
-    arm.tune(gains)
-}
-
-#[cfg_attr(not(debug_assertions), no_panic::no_panic)]
-#[inline(never)]
-fn tune_joints(arm: &mut ArmLaw, gains: JointGains) -> Result<(), ParameterError> {
-    arm.tune_joints(gains)
-}
-
-#[cfg_attr(not(debug_assertions), no_panic::no_panic)]
-#[inline(never)]
-fn count_from(arm: &mut ArmLaw, q_0: &Vector3<Real>) -> Result<(), ParameterError> {
-    arm.count_from(q_0)
-}
-
-#[cfg_attr(not(debug_assertions), no_panic::no_panic)]
-#[inline(never)]
 fn tick_axis(
     law: &mut Admittance<1>,
     q: &SVector<Real, 1>,
@@ -60,12 +42,6 @@ fn tick_axis(
     request: &Request<1>,
 ) -> Tick<1> {
     law.tick(q, f_h, request)
-}
-
-#[cfg_attr(not(debug_assertions), no_panic::no_panic)]
-#[inline(never)]
-fn tune_axis(law: &mut Admittance<1>, gains: Gains) -> Result<(), ParameterError> {
-    law.tune([gains])
 }
 
 fn main() -> Result<(), ParameterError> {
@@ -123,14 +99,14 @@ fn main() -> Result<(), ParameterError> {
             space,
             ..parameters
         }))?;
-        count_from(&mut arm, &inputs.q)?;
+        arm.count_from(&inputs.q)?;
         black_box(tick(&mut arm, &inputs)).ok();
-        tune(&mut arm, parameters.gains)?;
-        tune_joints(&mut arm, parameters.joint.gains)?;
+        arm.tune(parameters.gains)?;
+        arm.tune_joints(parameters.joint.gains)?;
     }
 
     let mut axis = Admittance::new(parameters.settings, [gains])?;
     let one = black_box(SVector::<Real, 1>::new(0.3));
     black_box(tick_axis(&mut axis, &one, &one, &Request::default()));
-    tune_axis(&mut axis, gains)
+    axis.tune([gains])
 }

@@ -11,7 +11,7 @@
 //! | [`origin`] | where positions are counted from in single precision |
 //! | [`refusal`] | status, and which value was refused |
 //! | [`storage`] | memory that the caller provides for a law |
-//! | [`pointer`] | the C boundary: null, alignment, initialization. All the unsafe code is there |
+//! | [`mod@pointer`] | the C boundary: null, alignment, initialization. All the unsafe code is there |
 //!
 //! Rules of the interface:
 //! * Names, units, signs and start values are those of the FMU's variables, whose documentation describes each.

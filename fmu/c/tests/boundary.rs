@@ -109,6 +109,9 @@ fn a_state_that_was_not_initialized_is_refused_also_when_it_belongs_to_another_l
     assert_eq!(tick(&mut *state, &mut *outputs), Status::NotInitialized);
 }
 
+/// What is done wrong, and how that is refused.
+type Case<T> = (fn(&mut T), &'static str);
+
 /// What was refused, as a program would print it.
 fn message(refusal: &Refusal) -> String {
     let Refusal {
@@ -126,7 +129,7 @@ fn message(refusal: &Refusal) -> String {
 
 #[test]
 fn a_bad_parameter_is_refused_by_name_value_and_range_and_the_state_is_kept() {
-    let cases: [(fn(&mut ArmParameters), &str); 8] = [
+    let cases: [Case<ArmParameters>; 8] = [
         (
             |p| p.gains.K[1] = -1.0,
             "K[2] = -1: expected a finite value greater than 0",
@@ -203,7 +206,7 @@ fn a_bad_gain_is_refused_and_the_gains_stay() {
 
 #[test]
 fn a_bad_input_is_refused_by_name_and_state_and_outputs_are_kept() {
-    let cases: [(fn(&mut ArmInputs), &str); 3] = [
+    let cases: [Case<ArmInputs>; 3] = [
         (|i| i.q[1] = f64::NAN, "q[2] = NaN: expected a finite value"),
         (
             |i| i.engage = 2,

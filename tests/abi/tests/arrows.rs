@@ -26,10 +26,12 @@ fn dependencies(package: &str, direct: bool) -> Vec<String> {
     names
 }
 
-const OURS: [&str; 12] = [
+const OURS: [&str; 14] = [
     "admittance",
     "arm-controller",
+    "arm-law",
     "declaration",
+    "exo-law",
     "exoskeleton-arm",
     "exoskeleton-arms",
     "export",
@@ -105,5 +107,20 @@ fn each_fmu_depends_on_its_own_side_only() {
             !all.iter().any(|n| n == other),
             "{package} depends on {other}"
         );
+    }
+}
+
+#[test]
+fn the_c_library_depends_on_the_laws_and_on_mathematics_only() {
+    for (package, suffix) in [("exo-law", ""), ("exo-law-f32", "-f32")] {
+        let laws = ["admittance", "arm-law"].map(|law| format!("{law}{suffix}"));
+        for name in dependencies(package, true) {
+            assert!(
+                [package, "nalgebra"].contains(&name.as_str()) || laws.contains(&name),
+                "{package} depends on {name}"
+            );
+        }
+        let all = dependencies(package, false);
+        assert!(!all.iter().any(|name| name.starts_with("serde")), "{all:?}");
     }
 }
