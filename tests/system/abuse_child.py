@@ -49,6 +49,8 @@ def reals(**wanted: str) -> list[str]:
 
 
 INPUTS, OUTPUTS = reals(causality="input"), reals(causality="output")
+#: Inputs that refuse NaN: all but a controller's force sensor, whose faults are named instead.
+STRICT = [name for name in INPUTS if not name.startswith(("f_h", "ft.")) or "ft.fault" not in variables]
 INPUT, OUTPUT, FIXED = INPUTS[0], OUTPUTS[0], reals(causality="parameter", variability="fixed")[0]
 T = float(description.defaultExperiment.stepSize)
 report: list[list[Any]] = []
@@ -119,7 +121,7 @@ attempt("set of an output", lambda: x.setReal([references[OUTPUT]], [1.0]))
 attempt("set of a fixed parameter", lambda: x.setReal([references[FIXED]], [1.0]))
 attempt(
     "a good value beside a bad one",
-    lambda: x.setReal([references[INPUTS[0]], references[INPUTS[-1]]], [1.0, math.nan]),
+    lambda: x.setReal([references[INPUTS[0]], references[STRICT[-1]]], [1.0, math.nan]),
 )
 
 
@@ -135,4 +137,4 @@ values += steps(x, 20, 20)
 x.freeInstance()
 
 moved = len({tuple(row) for row in expected}) > 1
-print(json.dumps({"report": report, "survived": values == expected, "moved": moved, "last_input": INPUTS[-1]}))
+print(json.dumps({"report": report, "survived": values == expected, "moved": moved, "last_input": STRICT[-1]}))

@@ -50,7 +50,7 @@ DOUBLE = [
     ("axis", "limits", "all"),
 ]
 
-#: Scenario and case, of which the first 10 s are replayed: a payload of 25 kg is pressed and lifted by half a metre; the
+#: Scenario and case, of which the first 10 s are replayed: a payload of 25 kg is pressed and lifted by half a metre; a
 #: table is pressed until the law saturates.
 SINGLE = [
     ("arm_payload", "passive_bounded_25kg"),

@@ -152,7 +152,9 @@ fn wanting_the_same_gains_at_every_tick_is_wanting_them_once() {
 fn changed_gains_come_into_force_on_a_straight_line() {
     let light = |K: f64| unlimited(1e9, 0.0, K, 1e-6); // a nominal that stands still: y = −dq
     let mut law = robot::law(Law::Passive, 0.002, light(30.0));
-    (0..20).for_each(|k| drop(tick(&mut law, 0.002 * f64::from(k), 0.0)));
+    for k in 0..20 {
+        tick(&mut law, 0.002 * f64::from(k), 0.0);
+    }
     law.tune([light(80.0)]).expect("valid gains");
     for k in 1..=60 {
         let f = tick(&mut law, 0.002 * f64::from(19 + k), 0.0).f.x;
