@@ -58,7 +58,7 @@ impl Bounds {
                 name: "q_max",
                 axis,
                 value: self.q_max,
-                expected: "a value greater than q_min",
+                expected: "a value greater than the least one",
             })
         }
     }

@@ -160,7 +160,7 @@ fn a_bad_parameter_is_refused_by_name_value_and_range_and_the_state_is_kept() {
         ),
         (
             |p| (p.p_n_box, p.p_n_min[0]) = (1, 3.0),
-            "p_n_max[1] = 1: expected a value greater than q_min",
+            "p_n_max[1] = 1: expected a value greater than the least one",
         ),
     ];
     for (spoil, expected) in cases {

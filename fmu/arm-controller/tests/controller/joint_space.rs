@@ -51,7 +51,7 @@ fn refusals_name_the_variable_in_either_space() {
                 c.joint.q_n_box = true;
                 c.joint.q_n_max[0] = -2.0;
             },
-            "joint.q_n_max[1] = -2: expected a value greater than q_min".into(),
+            "joint.q_n_max[1] = -2: expected a value greater than the least one".into(),
         ),
     ];
     for (change, expected) in cases {

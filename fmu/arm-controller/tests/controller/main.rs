@@ -4,6 +4,7 @@
 mod axes;
 mod energy;
 mod force_sensor;
+mod inside;
 mod joint_space;
 mod limits;
 mod refusals;

@@ -1,0 +1,122 @@
+//! Limits inside the law, and gains that ramp, on the arm.
+
+use crate::robot::{Robot, close_the_loop};
+use crate::{ArmController, T, initialized, tick};
+use export::{Log, Model};
+use nalgebra::Vector3;
+
+/// Pushed with `f_h` (N) for `ticks` ticks on the crude arm; `see` is shown every tick.
+fn push(
+    change: impl FnOnce(&mut ArmController),
+    f_h: [f64; 3],
+    ticks: u32,
+    mut see: impl FnMut(&ArmController),
+) {
+    let mut c = initialized(change);
+    let mut robot = Robot::at_the_start();
+    for k in 0..ticks {
+        close_the_loop(&mut c, &mut robot, k, f_h);
+        see(&c);
+    }
+}
+
+#[test]
+fn the_nominal_obeys_its_speed_limit_and_reaches_it() {
+    let (mut fastest, mut held) = (0.0_f64, false);
+    let limited = |c: &mut ArmController| c.dp_n_max = [0.05; 3];
+    push(limited, [0.0, 8.0, 0.0], 3000, |c| {
+        fastest = fastest.max(c.dp_n[1]);
+        held |= c.held;
+    });
+    // v_m is limited, v_n is it once the stop has acted; on the way there it may be ahead by T f_h/(2 Lambda_n).
+    assert!(
+        held && (fastest - 0.05).abs() <= T * 8.0 / 10.0,
+        "{fastest} m/s"
+    );
+}
+
+#[test]
+fn the_nominal_stays_in_its_box_and_gets_to_the_edge() {
+    let mut highest = f64::MIN;
+    let limited = |c: &mut ArmController| {
+        (c.dp_n_max, c.p_n_box) = ([0.1; 3], true);
+        (c.p_n_min, c.p_n_max) = ([-1.0; 3], [1.0, 0.04, 1.0]);
+    };
+    push(limited, [0.0, 8.0, 0.0], 3000, |c| {
+        highest = highest.max(c.p_n[1])
+    });
+    assert!((highest - 0.04).abs() < 1e-12, "{highest} m"); // q + e, rounded
+}
+
+#[test]
+fn torques_change_no_faster_than_they_may_and_as_fast() {
+    let most = 2000.0 * T;
+    let (mut last, mut fastest) = (None::<Vector3<f64>>, 0.0_f64);
+    let limited = |c: &mut ArmController| c.tau_rate_max = [2000.0; 3];
+    push(limited, [0.0, 8.0, -8.0], 3000, |c| {
+        let tau = Vector3::from(c.tau_a);
+        fastest = fastest.max((tau - last.unwrap_or_default()).amax());
+        last = Some(tau);
+        assert_eq!(c.energy.share, 1.0); // the budget alone may be faster
+    });
+    assert!(fastest <= most * (1.0 + 1e-12), "{fastest} N·m"); // the way's rounding
+    assert!(
+        fastest > 0.99 * most,
+        "{fastest} N·m: the limit was not met"
+    );
+}
+
+#[test]
+fn hold_keeps_the_nominal_where_it_is_under_a_steady_push() {
+    let mut c = initialized(|c| c.f_h = [0.0, 0.0, 4.0]);
+    (0..200).for_each(|k| tick(&mut c, k));
+    c.hold = true;
+    tick(&mut c, 200);
+    let held = c.p_n;
+    (201..400).for_each(|k| tick(&mut c, k));
+    assert!(c.held);
+    let away = Vector3::from(c.p_n) - Vector3::from(held);
+    assert!(away.amax() < 1e-15, "{away}"); // q + e, rounded
+}
+
+/// Gains are wanted at once and come over 0.1 s: K on a straight line, while nothing moves but the force.
+#[test]
+fn changed_gains_come_into_force_over_the_tuning_time() {
+    let force_after = |tuning_time: f64, ticks: u32| {
+        let mut c = initialized(|c| (c.f_h, c.tuning_time) = ([0.0, 0.0, 4.0], tuning_time));
+        (0..50).for_each(|k| tick(&mut c, k));
+        let before = c.f_a[2];
+        (c.K, c.D_n) = ([2000.0; 3], [40.0; 3]);
+        c.tune(&mut Log::silent()).expect("valid gains");
+        (50..50 + ticks).for_each(|k| tick(&mut c, k));
+        (c.f_a[2] - before).abs()
+    };
+    assert!(force_after(0.1, 1) < 0.1 * force_after(0.0, 1));
+}
+
+#[test]
+fn a_bad_limit_is_refused_by_name_value_and_range() {
+    type Change = fn(&mut ArmController);
+    let cases: [(Change, &str); 3] = [
+        (
+            |c| c.dp_n_max[1] = -1.0,
+            "dp_n_max[2] = -1: expected a value greater than 0",
+        ),
+        (
+            |c| c.tau_rate_max[0] = -5.0,
+            "tau_rate_max[1] = -5: expected a value greater than 0",
+        ),
+        (
+            |c| (c.p_n_box, c.p_n_min[2], c.p_n_max[2]) = (true, 0.5, 0.5),
+            "p_n_max[3] = 0.5: expected a value greater than the least one",
+        ),
+    ];
+    for (change, expected) in cases {
+        let mut c = ArmController::default();
+        change(&mut c);
+        let refusal = c
+            .initialize(0.0, &mut Log::silent())
+            .expect_err("impossible");
+        assert_eq!(refusal.0, expected);
+    }
+}
