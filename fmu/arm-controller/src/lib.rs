@@ -41,10 +41,11 @@
 //!
 //! | module | what |
 //! |---|---|
-//! | [`force_sensor`] | the variables `ft.*` |
-//! | [`joint`] | the variables of the joint-space form |
-//! | [`model`] | the variables, start, step, refusals |
-//! | [`rows`] | one row per variable: name, unit, bounds, description |
+//! | [`variables`] | the variables and their start values |
+//! | [`force_sensor`], [`joint`] | those of the force sensor `ft.*`, and of the joint-space form |
+//! | [`rows`], [`enumerations`] | one row per variable: name, unit, bounds, description; the items of choices and states |
+//! | [`parameters`] | the law's parameters from them, refusals |
+//! | [`model`] | start, tick, outputs |
 
 #![forbid(unsafe_code)]
 #![allow(
@@ -52,9 +53,12 @@
     reason = "fields are spelt like the paper's symbols and the interface: Lambda_n, K_P, J, T"
 )]
 
+pub mod enumerations;
 pub mod force_sensor;
 pub mod joint;
 pub mod model;
+pub mod parameters;
 pub mod rows;
+pub mod variables;
 
-pub use model::ArmController;
+pub use variables::ArmController;

@@ -144,9 +144,10 @@ impl ArmLaw {
     /// A law out of the loop.
     ///
     /// # Errors
-    /// The first parameter out of its range, or a law that is not offered.
+    /// The first parameter out of its range, a law that is not offered, or limits that do not suit it.
     pub fn new(parameters: &Parameters) -> Result<Self, ParameterError> {
         parameters.limits.check()?;
+        parameters.limits.check_under(parameters.settings.law)?;
         parameters.kinematics.check()?;
         parameters.singularity.check()?;
         parameters.joint.arm.check()?;

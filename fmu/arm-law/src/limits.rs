@@ -1,7 +1,7 @@
 //! What the joints deliver of the torque that they are asked for.
 
 use admittance::parameters::{LIMIT, POSITIVE, check};
-use admittance::{ParameterError, Real, real};
+use admittance::{Law, ParameterError, Real, real};
 use nalgebra::Vector3;
 
 /// How torques beyond ±tau_max are brought within.
@@ -62,6 +62,23 @@ impl Limits {
                     ("tau_rate_max", *tau_rate, LIMIT),
                 ],
             )?;
+        }
+        Ok(())
+    }
+
+    /// Whether these suit a law. Under `passive_applied` and `passive_bounded` the nominal feels what the robot gets, as one
+    /// share of what it was to get; no share describes joints that are clipped one by one.
+    ///
+    /// # Errors
+    /// Clipping under one of these two laws.
+    pub fn check_under(&self, law: Law) -> Result<(), ParameterError> {
+        if self.limiting == TorqueLimiting::Clip && !matches!(law, Law::Standard | Law::Passive) {
+            return Err(ParameterError::OutOfRange {
+                name: "torque_limiting",
+                axis: None,
+                value: 2.0,
+                expected: "1 (scale) under the laws passive_applied and passive_bounded: their nominal feels one share of the force",
+            });
         }
         Ok(())
     }

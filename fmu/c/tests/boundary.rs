@@ -152,7 +152,7 @@ fn a_bad_parameter_is_refused_by_name_value_and_range_and_the_state_is_kept() {
         ),
         (
             |p| p.torque_limiting = 2,
-            "torque_limiting[0] = 2: expected 1 (scale) under the laws passive_applied and passive_bounded",
+            "torque_limiting[0] = 2: expected 1 (scale) under the laws passive_applied and passive_bounded: their nominal feels one share of the force",
         ),
         (
             |p| p.delay = 2,

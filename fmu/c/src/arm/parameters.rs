@@ -216,16 +216,12 @@ impl ArmParameters {
         })
     }
 
-    /// No share describes joints that are clipped one by one, which the nominal of two laws would have to feel.
-    fn limiting(&self, law: Law) -> Result<TorqueLimiting, Bad> {
-        let refused = |expected| Bad::choice("torque_limiting", self.torque_limiting, expected);
-        match TorqueLimiting::from_number(self.torque_limiting) {
-            Some(TorqueLimiting::Clip) if !matches!(law, Law::Standard | Law::Passive) => Err(
-                refused("1 (scale) under the laws passive_applied and passive_bounded"),
-            ),
-            Some(limiting) => Ok(limiting),
-            None => Err(refused("1 (scale), 2 (clip)")),
-        }
+    fn limiting(&self) -> Result<TorqueLimiting, Bad> {
+        TorqueLimiting::from_number(self.torque_limiting).ok_or(Bad::choice(
+            "torque_limiting",
+            self.torque_limiting,
+            "1 (scale), 2 (clip)",
+        ))
     }
 
     /// The law's parameters.
@@ -258,7 +254,7 @@ impl ArmParameters {
             limits: Limits {
                 tau_max: self.tau_max.into(),
                 tau_rate: self.tau_rate_max.map(or_none).into(),
-                limiting: self.limiting(settings.law)?,
+                limiting: self.limiting()?,
             },
             singularity: arm_law::singularity::Singularity {
                 sigma_slow: self.singularity.sigma_slow,
