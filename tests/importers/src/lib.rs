@@ -1,8 +1,16 @@
 //! A foreign importer loads the built FMUs: the `fmi` crate (0.8), which shares no code with our exporter.
 //!
-//! The tests are in `tests/fmi_crate.rs`. They read the description, couple controller and testbed, and compare every
-//! output with the same models linked into the test, bit for bit; save, restore and serialize the state; and look at
-//! what a refused call does.
+//! | module | what |
+//! |---|---|
+//! | [`imported`] | an instance by variable name |
+//! | [`record`] | inputs and outputs as a table in a file |
+//!
+//! The program `fmi_crate` runs one FMU with the inputs of a file; `tests/system/test_trajectories.py` lets fmpy,
+//! libcosim and this program run each FMU with the same file and compares the outputs.
+//!
+//! `tests/fmi_crate.rs` couples controller and testbed and compares every output with the same models linked into the
+//! test, bit for bit; saves, restores and serializes the state; and looks at what a refused call does.
+//! `tests/descriptions.rs` reads the description of every FMU, and shows which valid descriptions this importer refuses.
 //!
 //! What this importer cannot do, so that it is not tested here:
 //! * it reads no units, bounds, display units and no start values of Strings and Enumerations from the description;
@@ -12,7 +20,22 @@
 //!
 //! Those are tested by `tests/abi` (C interface) and `tests/system` (fmpy, libcosimpy, XSD).
 
+pub mod imported;
+pub mod record;
+
+pub use imported::{Imported, Type, Variable};
+
 use std::path::{Path, PathBuf};
+
+/// The project's FMUs by name.
+pub const FMUS: [&str; 6] = [
+    "TestbedController",
+    "Testbed",
+    "ArmController",
+    "ExoskeletonArm",
+    "HumanOperator",
+    "ExoskeletonArms",
+];
 
 /// Path of a built archive.
 ///

@@ -1,12 +1,9 @@
 //! The `fmi` crate couples the built FMUs; the models linked into this test do the same without FMI.
 
-use declaration::{Access, Causality, Declare, provenance};
+use declaration::{Access, Causality, Declare};
 use export::{Log, Model, Step};
-use fmi::CS;
-use fmi::fmi2::import::Fmi2Import;
-use fmi::fmi2::instance::{CoSimulation as _, Common as _, Instance};
-use fmi::schema::fmi2::{Causality as Read, ScalarVariableElement};
-use fmi::traits::FmiImport as _;
+use fmi::fmi2::instance::{CoSimulation as _, Common as _};
+use importers::{Imported, Type};
 use testbed::Testbed;
 use testbed_controller::TestbedController;
 
@@ -15,12 +12,6 @@ const T: f64 = 0.002;
 
 /// One second of the loop, into the wall and out again.
 const STEPS: u32 = 500;
-
-fn import<M: Declare>() -> Fmi2Import {
-    let name = M::DESCRIPTION.name;
-    fmi::import::from_path(importers::archive(name))
-        .unwrap_or_else(|error| panic!("{name}: {error}"))
-}
 
 /// A model as the test drives it: by variable name, behind FMI or not.
 trait Driven {
@@ -33,107 +24,57 @@ trait Driven {
 }
 
 /// The built FMU.
-struct Imported {
-    instance: Instance<CS>,
-    /// Names, value references and types of the outputs, as the importer read them.
-    variables: Vec<(String, u32, Read, Type)>,
-}
+struct Built(Imported);
 
-#[derive(Clone, Copy, PartialEq)]
-enum Type {
-    Real,
-    Integer,
-    Boolean,
-    Other,
-}
-
-fn variables(import: &Fmi2Import) -> Vec<(String, u32, Read, Type)> {
-    import
-        .model_description()
-        .get_model_variables()
-        .map(|variable| {
-            let kind = match variable.elem {
-                ScalarVariableElement::Real(_) => Type::Real,
-                ScalarVariableElement::Integer(_) => Type::Integer,
-                ScalarVariableElement::Boolean(_) => Type::Boolean,
-                _ => Type::Other,
-            };
-            (
-                variable.name.clone(),
-                variable.value_reference,
-                variable.causality.clone(),
-                kind,
-            )
-        })
-        .collect()
-}
-
-impl Imported {
+impl Built {
     fn new<M: Declare>() -> Self {
-        let import = import::<M>();
-        let instance = import
-            .instantiate_cs("one", false, false)
-            .expect("instantiated");
-        Self {
-            instance,
-            variables: variables(&import),
-        }
+        let path = importers::archive(M::DESCRIPTION.name);
+        Self(Imported::open(&path).unwrap_or_else(|error| panic!("{error}")))
     }
 
     fn reference(&self, name: &str) -> u32 {
-        self.variables
-            .iter()
-            .find(|(known, ..)| known == name)
-            .unwrap_or_else(|| panic!("no variable {name}"))
-            .1
-    }
-
-    fn references(&self, kind: Type) -> Vec<u32> {
-        let outputs = self
-            .variables
-            .iter()
-            .filter(|(_, _, causality, of)| *causality == Read::Output && *of == kind);
-        outputs.map(|(_, reference, ..)| *reference).collect()
+        self.0
+            .reference(name)
+            .unwrap_or_else(|error| panic!("{error}"))
     }
 }
 
-impl Driven for Imported {
+impl Driven for Built {
     fn set(&mut self, name: &str, value: f64) {
-        self.instance
-            .set_real(&[self.reference(name)], &[value])
-            .unwrap_or_else(|e| panic!("{name} = {value}: {e:?}"));
+        self.0
+            .set(name, value)
+            .unwrap_or_else(|error| panic!("{error}"));
     }
 
     fn initialize(&mut self) {
-        self.instance
-            .setup_experiment(None, 0.0, None)
-            .expect("set up");
-        self.instance.enter_initialization_mode().expect("entered");
-        self.instance
-            .exit_initialization_mode()
-            .expect("initialized");
+        self.0
+            .initialize()
+            .unwrap_or_else(|error| panic!("{error}"));
     }
 
     fn step(&mut self, t: f64) {
-        self.instance.do_step(t, T, true).expect("stepped");
+        self.0.step(t, T).unwrap_or_else(|error| panic!("{error}"));
     }
 
     fn outputs(&mut self) -> Vec<u64> {
-        let references = self.references(Type::Real);
+        let references = self.0.outputs(Type::Real);
         let mut reals = vec![f64::NAN; references.len()];
-        self.instance
+        self.0
+            .instance
             .get_real(&references, &mut reals)
             .expect("read");
         let mut all: Vec<u64> = reals.into_iter().map(f64::to_bits).collect();
-        let references = self.references(Type::Integer);
+        let references = self.0.outputs(Type::Integer);
         let mut integers = vec![i32::MIN; references.len()];
-        self.instance
+        self.0
+            .instance
             .get_integer(&references, &mut integers)
             .expect("read");
         all.extend(integers.into_iter().map(|value| u64::from(value as u32)));
-        let references = self.references(Type::Boolean);
+        let references = self.0.outputs(Type::Boolean);
         let mut booleans = vec![-1; references.len()];
-        self.instance
+        self.0
+            .instance
             .get_boolean(&references, &mut booleans)
             .expect("read");
         all.extend(booleans.into_iter().map(|value| u64::from(value as u32)));
@@ -141,11 +82,7 @@ impl Driven for Imported {
     }
 
     fn real(&mut self, name: &str) -> f64 {
-        let mut value = [f64::NAN];
-        self.instance
-            .get_real(&[self.reference(name)], &mut value)
-            .expect("read");
-        value[0]
+        self.0.get(name).unwrap_or_else(|error| panic!("{error}"))
     }
 }
 
@@ -247,57 +184,8 @@ fn prepared<C: Driven, P: Driven>(mut controller: C, mut plant: P) -> (C, P) {
     (controller, plant)
 }
 
-fn imported() -> (Imported, Imported) {
-    prepared(
-        Imported::new::<TestbedController>(),
-        Imported::new::<Testbed>(),
-    )
-}
-
-#[test]
-fn the_importer_reads_the_declared_variables() {
-    fn check<M: Declare>() {
-        let read = variables(&import::<M>());
-        let declared: Vec<_> = M::DESCRIPTION.scalars().collect();
-        // After the rows of the model: what every library says of itself.
-        let (read, last) = read.split_at(declared.len());
-        let last: Vec<_> = last
-            .iter()
-            .map(|(name, reference, ..)| (&**name, *reference))
-            .collect();
-        assert_eq!(
-            last,
-            provenance::ALL.map(|one| (one.name(), one.reference()))
-        );
-        for ((name, reference, causality, _), scalar) in read.iter().zip(&declared) {
-            assert_eq!((name, *reference), (&scalar.name(), scalar.reference()));
-            let wanted = match scalar.variable.causality {
-                Causality::Parameter => Read::Parameter,
-                Causality::CalculatedParameter => Read::CalculatedParameter,
-                Causality::Input => Read::Input,
-                Causality::Output => Read::Output,
-                Causality::Local => Read::Local,
-            };
-            assert_eq!(*causality, wanted, "{name}");
-        }
-        let import = import::<M>();
-        assert_eq!(import.model_description().guid, M::DESCRIPTION.guid());
-        let outputs = &import.model_description().model_structure.outputs.unknowns;
-        let positions = declared
-            .iter()
-            .enumerate()
-            .filter(|(_, s)| s.variable.causality == Causality::Output);
-        let positions: Vec<_> = positions.map(|(position, _)| position as u32 + 1).collect();
-        assert_eq!(
-            outputs
-                .iter()
-                .map(|unknown| unknown.index)
-                .collect::<Vec<_>>(),
-            positions
-        );
-    }
-    check::<TestbedController>();
-    check::<Testbed>();
+fn imported() -> (Built, Built) {
+    prepared(Built::new::<TestbedController>(), Built::new::<Testbed>())
 }
 
 #[test]
@@ -325,17 +213,19 @@ fn a_restored_state_runs_on_bit_for_bit() {
     let (mut controller, mut plant) = imported();
     run(&mut controller, &mut plant, 0..STEPS / 2);
     let (controller_state, plant_state) = (
-        controller.instance.get_fmu_state().expect("saved"),
-        plant.instance.get_fmu_state().expect("saved"),
+        controller.0.instance.get_fmu_state().expect("saved"),
+        plant.0.instance.get_fmu_state().expect("saved"),
     );
     let first = run(&mut controller, &mut plant, STEPS / 2..STEPS);
     use fmi::traits::FmiStatus as _;
     controller
+        .0
         .instance
         .set_fmu_state(&controller_state)
         .ok()
         .expect("restored");
     plant
+        .0
         .instance
         .set_fmu_state(&plant_state)
         .ok()
@@ -356,15 +246,21 @@ fn a_refused_call_leaves_the_instance_usable() {
         (0.5, T),
     ] {
         assert!(
-            plant.instance.do_step(t, h, true).is_err(),
+            plant.0.instance.do_step(t, h, true).is_err(),
             "t = {t}, h = {h}"
         );
     }
     let (q, dq) = (plant.reference("q"), plant.reference("tau_h"));
-    assert!(plant.instance.set_real(&[q], &[0.1]).is_err(), "an output");
-    assert!(plant.instance.set_real(&[dq], &[f64::NAN]).is_err(), "NaN");
     assert!(
-        plant.instance.set_real(&[u32::MAX], &[0.0]).is_err(),
+        plant.0.instance.set_real(&[q], &[0.1]).is_err(),
+        "an output"
+    );
+    assert!(
+        plant.0.instance.set_real(&[dq], &[f64::NAN]).is_err(),
+        "NaN"
+    );
+    assert!(
+        plant.0.instance.set_real(&[u32::MAX], &[0.0]).is_err(),
         "no such value reference"
     );
     assert_eq!(plant.outputs(), before);

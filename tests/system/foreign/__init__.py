@@ -1,0 +1,9 @@
+"""FMUs as other importers run them: one record of inputs, one function an importer, and the table of what was run.
+
+| module | what |
+|---|---|
+| `record` | inputs that move everything an FMU has, as data and as a file |
+| `runs` | a record through fmpy, libcosim, the `fmi` crate, and inside a container |
+| `cosim` | any coupling through libcosim, in a process of its own (`cosim_child`) |
+| `matrix` | `matrix.toml`, from which docs/importers.md and the README get their tables |
+"""
