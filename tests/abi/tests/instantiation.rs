@@ -1,8 +1,8 @@
-//! fmi2Instantiate: what is refused with null, what is not, and where the resources are.
+//! fmi2Instantiate: what is refused with null, and what is not.
 
 use abi::messages::{Messages, logger};
 use abi::types::*;
-use abi::{Fmu, Instance, Message, Phase, Status};
+use abi::{Fmu, Message, Phase, Status};
 use std::ffi::{CStr, c_int};
 use std::ptr::null;
 
@@ -167,89 +167,6 @@ fn without_a_logger_everything_works_silently() {
         );
         instance.initialize(0.0);
         assert_eq!(instance.step(0.0, 0.01), Status::OK);
-    }
-}
-
-#[test]
-fn a_resource_location_is_understood_in_every_spelling() {
-    let fmu = Fmu::lag();
-    let path = fmu.reference("resource_path");
-    for (location, expected) in [
-        (None, ""),
-        (Some("file:/a/resources"), "/a/resources"),
-        (Some("file:///a/resources"), "/a/resources"),
-        (Some("file://localhost/a/resources"), "/a/resources"),
-        (
-            Some("file:///with space/resources"),
-            "/with space/resources",
-        ),
-        (
-            Some("file:///with%20space/resources"),
-            "/with space/resources",
-        ),
-        (Some("file:///M%C3%BCnchen/%7B1-2%7D"), "/München/{1-2}"),
-        (Some("file:///München/{1-2}"), "/München/{1-2}"),
-        (Some("/plain/path"), "/plain/path"),
-    ] {
-        let setup = location.map_or(fmu.setup(), |l| fmu.setup().at(l));
-        let instance = fmu.instantiate_as(&setup);
-        assert_eq!(instance.string(path), expected, "{location:?}");
-        assert_eq!(instance.messages(), [], "{location:?}");
-        // Known again after a reset, and after a state came from elsewhere.
-        let mut elsewhere = fmu.instantiate().state();
-        assert_eq!(instance.reset(), Status::OK);
-        assert_eq!(
-            instance.string(path),
-            expected,
-            "{location:?} after fmi2Reset"
-        );
-        assert_eq!(instance.set_state(elsewhere), Status::OK);
-        assert_eq!(
-            instance.string(path),
-            expected,
-            "{location:?} after fmi2SetFMUstate"
-        );
-        assert_eq!(instance.free_state(&mut elsewhere), Status::OK);
-    }
-}
-
-#[test]
-fn a_resource_location_that_is_not_understood_is_a_warning_and_the_instance_works() {
-    for fmu in Fmu::all() {
-        for location in [
-            "http://host/resources",
-            "file://host/resources",
-            "file:///%FF%FE",
-        ] {
-            let instance = fmu.instantiate_as(&fmu.setup().at(location));
-            let log = instance.messages();
-            let [message] = &log[..] else {
-                panic!("expected one message, got {log:?}")
-            };
-            assert_eq!(
-                (message.category.as_str(), message.status),
-                ("logStatusWarning", Status::WARNING)
-            );
-            assert!(message.text.starts_with("fmi2Instantiate: "), "{message:?}");
-            instance.initialize(0.0);
-            assert_eq!(instance.step(0.0, 0.01), Status::OK);
-        }
-    }
-}
-
-#[test]
-fn the_fmus_work_with_the_folder_they_were_unpacked_into() {
-    for fmu in Fmu::products() {
-        let folder = fmu
-            .folder
-            .as_ref()
-            .expect("an archive")
-            .path()
-            .join("resources");
-        let instance = fmu.instantiate_as(&fmu.setup().at(&Instance::uri(&folder)));
-        assert_eq!(instance.messages(), []);
-        instance.initialize(0.0);
-        assert_eq!(instance.step(0.0, 0.002), Status::OK);
     }
 }
 

@@ -1,173 +1,313 @@
-//! Ticks and substeps do not depend on how an importer cuts time into steps.
+//! Ticks and samples do not depend on how an importer cuts time into steps.
+//!
+//! A controller holds its inputs from tick to tick: inputs that change only every 42 periods, where the step sizes meet,
+//! must give the same outputs at the same ticks for every step size. The arm's force sensor has a clock of its own, whose
+//! sample is seen in its noise. What must have run is counted here in whole 300ths of the period.
 
-use abi::{Fmu, Instance, Status};
+use abi::{Fmu, Instance, Kind, Status};
 
-const T: f64 = 0.002;
+/// Communication steps of a run.
+const STEPS: u64 = 200_000;
 
-/// An initialized controller under a constant push, and the references of what it shows.
-fn controller(fmu: &Fmu) -> Instance {
-    let instance = fmu.instantiate();
-    instance.initialize(0.0);
-    let inputs = fmu.references(["q", "tau_h"]);
-    assert_eq!(instance.set_real(&inputs, &[0.05, 3.0]), Status::OK);
-    instance
+/// Periods that a run of the arm's FMUs takes at most: as long as 2e5 steps of random length. So 2e5 steps of 7 T are run
+/// on the smaller controller only, and 74,000 on the arm's.
+const ARM: u64 = 520_000;
+
+/// Parts of a period that times are counted in.
+const PARTS: u64 = 300;
+
+/// Parts for which inputs are held: 42 periods, a multiple of every constant step size.
+const HELD: u64 = 42 * PARTS;
+
+/// Step sizes in parts: T/10, T/3, T, 1.5 T, 7 T.
+const SIZES: [u64; 5] = [30, 100, 300, 450, 2100];
+
+/// What is seen of an instance: a count, and a fingerprint of outputs in which every bit counts.
+type Shown = (i32, u64);
+
+/// An FMU with a clock in it.
+struct Clocked {
+    fmu: Fmu,
+    /// Real inputs: reference and start value.
+    inputs: Vec<(u32, f64)>,
+    /// Real outputs that are looked at.
+    outputs: Vec<u32>,
+    /// An output that counts, of a controller.
+    tick: Option<u32>,
+    /// Period of the clock (s).
+    period: f64,
+    /// Parameters that are not those of the start.
+    settings: Vec<(u32, f64)>,
 }
 
-/// What a controller shows: the tick and all Real outputs, bit for bit.
-fn outputs(fmu: &Fmu, instance: &Instance) -> (i32, Vec<u64>) {
-    let reals: Vec<_> = fmu
+impl Clocked {
+    /// A sampled controller: all its outputs belong to the tick.
+    fn controller(name: &str) -> Self {
+        let fmu = Fmu::open(name);
+        let new = fmu.instantiate();
+        Self {
+            inputs: reals(&fmu, "input")
+                .map(|reference| (reference, new.real(reference)))
+                .collect(),
+            outputs: reals(&fmu, "output").collect(),
+            tick: Some(fmu.reference("tick")),
+            period: new.real(fmu.reference("T")),
+            settings: Vec::new(),
+            fmu,
+        }
+    }
+
+    /// The arm's force sensor. Its reading is the force that is held, in the base frame, and the noise of the sample's
+    /// number: the motion has no say, so that the plant may take long substeps.
+    fn sensor() -> Self {
+        let fmu = Fmu::open("ExoskeletonArm");
+        Self {
+            inputs: fmu
+                .references(["f_h[1]", "f_h[2]", "f_h[3]"])
+                .map(|reference| (reference, 0.0))
+                .into(),
+            outputs: fmu
+                .references(["f_h_measured[1]", "f_h_measured[2]", "f_h_measured[3]"])
+                .into(),
+            tick: None,
+            period: fmu.instantiate().real(fmu.reference("ft.T")),
+            settings: vec![
+                (fmu.reference("ft.noise"), 0.2),
+                (fmu.reference("substep"), 0.01),
+            ],
+            fmu,
+        }
+    }
+
+    /// An initialized instance.
+    fn begin(&self, start: f64) -> Instance {
+        let instance = self.fmu.instantiate();
+        for &(reference, value) in &self.settings {
+            assert_eq!(instance.set_real(&[reference], &[value]), Status::OK);
+        }
+        instance.initialize(start);
+        instance
+    }
+
+    /// Sets the inputs that are held in a block of periods: each near its start value, from block to block another.
+    fn set(&self, instance: &Instance, block: u64) {
+        let (references, values): (Vec<_>, Vec<_>) = (1..)
+            .zip(&self.inputs)
+            .map(|(i, &(reference, start))| {
+                (
+                    reference,
+                    start + 0.05 * (1.7 * (block * i) as f64 + i as f64).sin(),
+                )
+            })
+            .unzip();
+        assert_eq!(instance.set_real(&references, &values), Status::OK);
+    }
+
+    fn step(&self, instance: &Instance, t: f64, h: f64) {
+        let status = instance.step(t, h);
+        assert_eq!(status, Status::OK, "{:?}", instance.messages());
+    }
+
+    fn shown(&self, instance: &Instance) -> Shown {
+        let values = instance
+            .get_real(&self.outputs)
+            .expect("outputs can be read");
+        let mix = |hash: u64, value: f64| {
+            (hash ^ value.to_bits())
+                .wrapping_mul(0x9E37_79B9_7F4A_7C15)
+                .rotate_left(29)
+        };
+        let count = self.tick.map_or(0, |tick| instance.integer(tick));
+        (count, values.into_iter().fold(0, mix))
+    }
+
+    /// What is shown after each of the first steps of exactly one period from `start` on.
+    fn by_the_period(&self, start: f64, steps: u64) -> Vec<Shown> {
+        let instance = self.begin(start);
+        let step = |k: u64| {
+            if k * PARTS % HELD == 0 {
+                self.set(&instance, k * PARTS / HELD);
+            }
+            self.step(&instance, start + k as f64 * self.period, self.period);
+            self.shown(&instance)
+        };
+        (0..steps).map(step).collect()
+    }
+
+    /// Index in [`Clocked::by_the_period`] of what must be seen at a time, in parts. A controller runs the ticks in
+    /// [0, time), a step of one period the tick at its begin; the sensor takes the samples in (0, time], such a step the
+    /// one at its end.
+    fn newest(&self, time: u64) -> Option<usize> {
+        let steps = match self.tick {
+            Some(_) => time.div_ceil(PARTS),
+            None => time / PARTS,
+        };
+        (steps as usize).checked_sub(1)
+    }
+
+    /// Steps of `sizes` (parts), their times summed or multiplied, show what steps of the period show.
+    fn check(&self, reference: &[Shown], sizes: impl Iterator<Item = u64>, summed: bool) {
+        let instance = self.begin(0.0);
+        let (mut time, mut sum) = (0, 0.0);
+        for size in sizes {
+            if time % HELD == 0 {
+                self.set(&instance, time / HELD);
+            }
+            let h = self.period * size as f64 / PARTS as f64;
+            let multiplied = time as f64 / size as f64 * h;
+            self.step(&instance, if summed { sum } else { multiplied }, h);
+            time += size;
+            sum += h;
+            if let Some(newest) = self.newest(time) {
+                assert_eq!(
+                    self.shown(&instance),
+                    reference[newest],
+                    "{}, {time}/{PARTS} periods, step {size}/{PARTS}, summed: {summed}",
+                    self.fmu.name
+                );
+            }
+        }
+        let exact = time as f64 / PARTS as f64 * self.period;
+        assert!(sum != exact, "the sum has rounded, or nothing was tested");
+    }
+
+    /// All step sizes, 2e5 steps each or as many as fit into `periods`.
+    fn check_all(&self, periods: u64) {
+        let reference = self.by_the_period(0.0, periods);
+        let still = reference.windows(2).filter(|pair| pair[0] == pair[1]);
+        assert_eq!(still.count(), 0, "the outputs move with every tick");
+        for summed in [false, true] {
+            for size in SIZES {
+                let steps = STEPS.min(periods * PARTS / size) as usize;
+                self.check(&reference, std::iter::repeat_n(size, steps), summed);
+            }
+            self.check(&reference, random_sizes(), summed);
+        }
+    }
+}
+
+/// References of the Real variables of a causality.
+fn reals<'a>(fmu: &'a Fmu, causality: &'a str) -> impl Iterator<Item = u32> + 'a {
+    let reals = fmu
         .variables
         .iter()
-        .filter(|v| v.causality == "output" && v.kind == abi::Kind::Real {})
-        .map(|v| v.reference)
-        .collect();
-    let values = instance.get_real(&reals).expect("outputs can be read");
-    let bits = values.into_iter().map(f64::to_bits).collect();
-    (instance.integer(fmu.reference("tick")), bits)
+        .filter(move |v| v.causality == causality && v.kind == Kind::Real {});
+    reals.map(|v| v.reference)
 }
 
-/// The outputs after each of the first `n` ticks, by steps of exactly one period.
-fn by_the_period(fmu: &Fmu, n: u32) -> Vec<(i32, Vec<u64>)> {
-    let instance = controller(fmu);
-    (0..n)
-        .map(|k| {
-            assert_eq!(instance.step(f64::from(k) * T, T), Status::OK);
-            outputs(fmu, &instance)
-        })
-        .collect()
+/// 2e5 steps of up to five periods in hundredths of the period (a thousandth is the instant itself for the exporter), cut
+/// where inputs change.
+fn random_sizes() -> impl Iterator<Item = u64> {
+    let (mut time, mut seed) = (0, 7_u64);
+    std::iter::repeat_with(move || {
+        seed = seed
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
+        let wanted = PARTS / 100 * (1 + (seed >> 33) % 500);
+        let size = wanted.min(HELD - time % HELD);
+        time += size;
+        size
+    })
+    .take(STEPS as usize)
 }
 
 #[test]
 fn one_step_of_the_period_runs_one_tick_and_the_first_runs_tick_zero() {
-    let fmu = Fmu::open("TestbedController");
-    let all = by_the_period(&fmu, 200);
-    for (k, (tick, _)) in all.iter().enumerate() {
-        assert_eq!(*tick, k as i32);
-    }
-    assert!(
-        all.windows(2).all(|pair| pair[0].1 != pair[1].1),
-        "the outputs move at every tick"
-    );
-}
-
-#[test]
-fn any_step_size_runs_the_ticks_that_lie_in_it() {
-    let fmu = Fmu::open("TestbedController");
-    let reference = by_the_period(&fmu, 720);
-    for h in [T / 10.0, T / 3.0, T, 1.5 * T, 7.0 * T] {
-        let instance = controller(&fmu);
-        for i in 0..(1.4 / h) as u32 {
-            let t = f64::from(i) * h;
-            assert_eq!(instance.step(t, h), Status::OK, "{:?}", instance.messages());
-            // Ticks in [0, t + h): the last is the greatest k with k·T < t + h, seen with an importer's rounding.
-            let last = ((f64::from(i + 1) * h / T - 1e-6).ceil() - 1.0) as usize;
-            assert_eq!(
-                outputs(&fmu, &instance),
-                reference[last],
-                "h = {h}, t = {t}"
-            );
+    for name in ["TestbedController", "ArmController"] {
+        let all = Clocked::controller(name).by_the_period(0.0, 200);
+        for (k, (tick, _)) in all.iter().enumerate() {
+            assert_eq!(*tick, k as i32);
         }
     }
 }
 
 #[test]
-fn random_step_sizes_run_the_ticks_that_lie_in_them() {
-    let fmu = Fmu::open("TestbedController");
-    let reference = by_the_period(&fmu, 1100);
-    let instance = controller(&fmu);
-    let (mut t, mut seed) = (0.0, 7_u64);
-    while t < 2.0 {
-        seed = seed
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1_442_695_040_888_963_407);
-        let h = ((seed >> 40) as f64 + 1.0) / (1_u64 << 24) as f64 * 5.0 * T;
-        let end = (t + h) / T;
-        // A point within the exporter's tolerance (1e-3 of a period) of a tick could be either side of it.
-        if (end - end.round()).abs() < 1e-2 {
-            continue;
-        }
-        assert_eq!(instance.step(t, h), Status::OK);
-        t += h;
-        assert_eq!(
-            outputs(&fmu, &instance),
-            reference[end.ceil() as usize - 1],
-            "t = {t}"
-        );
-    }
+fn any_step_size_runs_the_testbed_controller_s_ticks_that_lie_in_it() {
+    Clocked::controller("TestbedController").check_all(7 * STEPS);
 }
 
 #[test]
-fn two_hundred_thousand_steps_run_one_tick_each_whether_times_are_summed_or_multiplied() {
-    let fmu = Fmu::open("TestbedController");
-    let n = 200_000;
-    let [summed, multiplied] = [controller(&fmu), controller(&fmu)];
-    let tick = fmu.reference("tick");
-    let mut t = 0.0;
-    for k in 0..n {
-        assert_eq!(summed.step(t, T), Status::OK);
-        assert_eq!(multiplied.step(f64::from(k) * T, T), Status::OK);
-        t += T;
-        assert_eq!((summed.integer(tick), multiplied.integer(tick)), (k, k));
-    }
-    assert_eq!(outputs(&fmu, &summed), outputs(&fmu, &multiplied));
-    assert!(
-        t != f64::from(n) * T,
-        "the sum has rounded, or nothing was tested"
-    );
+fn any_step_size_runs_the_arm_controller_s_ticks_that_lie_in_it() {
+    Clocked::controller("ArmController").check_all(ARM);
 }
 
 #[test]
-fn ticks_count_from_the_start_time() {
-    let fmu = Fmu::open("TestbedController");
-    let reference = by_the_period(&fmu, 50);
-    for start in [-1.0, 0.0013, 1e4] {
-        let instance = fmu.instantiate();
-        instance.initialize(start);
-        assert_eq!(
-            instance.set_real(&fmu.references(["q", "tau_h"]), &[0.05, 3.0]),
-            Status::OK
-        );
-        for (k, expected) in (0..).zip(&reference) {
-            assert_eq!(instance.step(start + f64::from(k) * T, T), Status::OK);
-            assert_eq!(
-                &outputs(&fmu, &instance),
-                expected,
-                "start {start}, tick {k}"
-            );
+fn any_step_size_shows_the_force_sensor_s_newest_sample() {
+    Clocked::sensor().check_all(ARM);
+}
+
+#[test]
+fn ticks_and_samples_count_from_the_start_time() {
+    for one in [
+        Clocked::controller("TestbedController"),
+        Clocked::controller("ArmController"),
+        Clocked::sensor(),
+    ] {
+        let reference = one.by_the_period(0.0, 50);
+        for start in [-1.0, 0.0013, 1e4] {
+            assert_eq!(one.by_the_period(start, 50), reference, "start {start}");
         }
     }
 }
 
-#[test]
-fn the_testbed_ends_where_one_large_step_ends_when_the_substeps_are_the_same() {
-    let fmu = Fmu::open("Testbed");
-    // Powers of two: the lengths of substeps and all times are exact, so that equal means equal.
-    let (substep, small, n) = (2.0_f64.powi(-14), 2.0_f64.powi(-9), 512);
-    let run = |h: f64, steps: u32| {
-        let instance = fmu.instantiate();
-        assert_eq!(
-            instance.set_real(&[fmu.reference("substep")], &[substep]),
-            Status::OK
-        );
-        instance.initialize(0.0);
-        // Fast enough for 0.3 m in 1 s: friction, flight and the wall are all in it.
-        assert_eq!(
-            instance.set_real(&[fmu.reference("tau_h")], &[8.0]),
-            Status::OK
-        );
-        for k in 0..steps {
-            assert_eq!(instance.step(f64::from(k) * h, h), Status::OK);
+/// A plant over one second in `steps` steps, with exact times and substeps: the bits of all its Real outputs, and the
+/// value of one that must have moved.
+fn second(fmu: &Fmu, settings: &[(&str, f64)], steps: u32, moved: &str) -> (Vec<u64>, f64) {
+    let instance = fmu.instantiate();
+    let set = |causality: &str| {
+        for (name, value) in settings {
+            let variable = fmu.variable(name);
+            if variable.causality == causality {
+                assert_eq!(
+                    instance.set_real(&[variable.reference], &[*value]),
+                    Status::OK
+                );
+            }
         }
-        let outputs = fmu.references(["q", "dq", "tau_f", "energy.residual", "energy.loss_wall"]);
-        instance.get_real(&outputs).expect("outputs")
     };
-    let reference = run(small, n);
-    assert!(reference[4] > 0.0, "the wall is hit: {reference:?}");
-    for parts in [1, 2, 4, 64] {
-        assert_eq!(
-            run(f64::from(n) * small / f64::from(parts), parts),
-            reference,
-            "{parts} steps"
-        );
+    set("parameter");
+    instance.initialize(0.0);
+    set("input");
+    let h = f64::from(steps).recip();
+    for k in 0..steps {
+        assert_eq!(instance.step(f64::from(k) * h, h), Status::OK);
+    }
+    let outputs: Vec<_> = reals(fmu, "output").collect();
+    let values = instance.get_real(&outputs).expect("outputs");
+    let bits = values.into_iter().map(f64::to_bits).collect();
+    (bits, instance.real(fmu.reference(moved)))
+}
+
+#[test]
+fn a_plant_ends_where_one_large_step_ends_when_the_substeps_are_the_same() {
+    // Powers of two: the lengths of substeps and all times are exact, so that equal means equal.
+    let (substep, sample) = (2.0_f64.powi(-14), 2.0_f64.powi(-10));
+    // Fast enough for 0.3 m in 1 s: friction, flight and the wall are all in it. The arms are pulled up against friction.
+    for (name, settings, moved) in [
+        ("Testbed", &[("tau_h", 8.0)][..], "energy.loss_wall"),
+        (
+            "ExoskeletonArm",
+            &[
+                ("ft.T", sample),
+                ("ft.noise", 0.2),
+                ("f_h[3]", 30.0),
+                ("tau_a[1]", 30.0),
+            ],
+            "energy.loss_friction",
+        ),
+        (
+            "ExoskeletonArms",
+            &[("left.f_h[3]", 30.0), ("right.tau_a[1]", 30.0)],
+            "energy.loss_friction",
+        ),
+    ] {
+        let fmu = Fmu::open(name);
+        let settings = [settings, &[("substep", substep)]].concat();
+        let (reference, moved_by) = second(&fmu, &settings, 512, moved);
+        assert!(moved_by > 0.0, "{name}: {moved} = {moved_by}");
+        for steps in [1, 2, 4, 64] {
+            let (outputs, _) = second(&fmu, &settings, steps, moved);
+            assert_eq!(outputs, reference, "{name}: {steps} steps");
+        }
     }
 }
