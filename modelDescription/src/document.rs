@@ -1,7 +1,8 @@
 //! The interface document `documentation/index.html`: one page that needs nothing but itself.
 
+use crate::entry::{Entry, Kind};
 use crate::guide::{self, Guide};
-use crate::interface::{Entry, Interface, Kind};
+use crate::interface::Interface;
 use crate::quick_start;
 use crate::xml::{self, LOG_CATEGORIES, double, variability};
 use declaration::{Causality, Stepping};

@@ -1,6 +1,7 @@
 //! C header with the value references.
 
-use crate::interface::{Interface, Kind};
+use crate::entry::Kind;
+use crate::interface::Interface;
 use crate::xml::{causality, variability};
 use std::fmt::Write as _;
 
@@ -60,7 +61,7 @@ pub fn write(interface: &Interface) -> String {
 fn macro_names(interface: &Interface) -> Vec<String> {
     let mut seen = std::collections::BTreeSet::new();
     let prefix = macro_name(interface.name);
-    let name = |entry: &crate::interface::Entry| {
+    let name = |entry: &crate::entry::Entry| {
         let name = format!("{prefix}_{}", macro_name(&entry.name));
         if seen.insert(name.clone()) {
             name

@@ -32,7 +32,8 @@
 //!
 //! | module | what | where in the archive | FMI 2.0.5 |
 //! |---|---|---|---|
-//! | [`interface`] | the declaration read once, every rule checked, the model's type gone | | 2.2 |
+//! | [`interface`], [`entry`] | the declaration read once, the model's type gone | | 2.2 |
+//! | [`rules`], [`error`] | every rule that a declaration can break, and what is said of it | | 2.2 |
 //! | [`name`] | names of the structured naming convention | | 2.2.9 |
 //! | [`schema`], [`mod@xml`] | the XML's elements, and their contents | `modelDescription.xml` | 2.2, 4.3.1 |
 //! | [`mod@document`] | the interface document for humans | `documentation/index.html` | 2.3 |
@@ -48,21 +49,25 @@
 pub mod archive;
 pub mod component;
 pub mod document;
+pub mod entry;
+pub mod error;
 pub mod guide;
 pub mod header;
 pub mod interface;
 pub mod licences;
 pub mod name;
 pub mod quick_start;
+pub mod rules;
 pub mod sbom;
 pub mod schema;
 pub mod xml;
 
 pub use component::Component;
 pub use document::write as document;
+pub use error::Error;
 pub use guide::{Connection, Guide};
 pub use header::write as header;
-pub use interface::{Error, Interface};
+pub use interface::Interface;
 pub use sbom::write as sbom;
 pub use xml::write as xml;
 

@@ -6,7 +6,8 @@
 //! * No output depends on an input at the same communication point: `dependencies=""` (2.2.8).
 //! * There is no independent variable and no generation date: the first upsets importers, the second reproducibility.
 
-use crate::interface::{Entry, Interface, Kind};
+use crate::entry::{Entry, Kind};
+use crate::interface::Interface;
 use crate::schema::{
     Attributes, BaseUnit, Category, CoSimulation, DefaultExperiment, DisplayUnit, Item, Items,
     Kind as Element, LogCategories, ModelStructure, ModelVariables, Root, ScalarVariable,

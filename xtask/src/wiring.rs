@@ -55,7 +55,7 @@ mod tests {
     use super::*;
     use crate::catalogue::FMUS;
     use declaration::Causality;
-    use model_description::interface::{Entry, Kind};
+    use model_description::entry::{Entry, Kind};
 
     /// The scalars that one end of a connection names.
     fn end((fmu, variable): (&str, &str)) -> Vec<Entry> {

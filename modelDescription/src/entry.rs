@@ -1,0 +1,84 @@
+//! One scalar variable of an interface.
+
+use declaration::{Causality, Declared, Enumeration, Unit, Variability};
+
+/// One scalar variable.
+#[derive(Clone, Debug)]
+pub struct Entry {
+    /// Name, the element's number in it.
+    pub name: String,
+    /// Value reference.
+    pub reference: u32,
+    /// Who computes it.
+    pub causality: Causality,
+    /// When it may change.
+    pub variability: Variability,
+    /// Type, bounds and start value.
+    pub kind: Kind,
+    /// Positions (from 0, ascending, unique) of the inputs and parameters that decide its value at initialization.
+    pub initially_from: Vec<usize>,
+    /// Description.
+    pub about: &'static str,
+}
+
+/// Type, bounds and start value. Bounds are `None` where there are none.
+#[derive(Clone, Debug)]
+pub enum Kind {
+    /// fmi2Real
+    Real {
+        /// Unit of the three values.
+        unit: Unit,
+        /// Start value.
+        start: f64,
+        /// Smallest accepted value.
+        min: Option<f64>,
+        /// Largest accepted value.
+        max: Option<f64>,
+    },
+    /// fmi2Integer
+    Integer {
+        /// Start value.
+        start: i32,
+        /// Smallest accepted value.
+        min: Option<i32>,
+        /// Largest accepted value.
+        max: Option<i32>,
+    },
+    /// fmi2Boolean
+    Boolean {
+        /// Start value.
+        start: bool,
+    },
+    /// fmi2String
+    String {
+        /// Start value.
+        start: String,
+    },
+    /// fmi2Integer that takes the values of an enumeration's items
+    Enumeration {
+        /// The type.
+        of: &'static Enumeration,
+        /// How the XML declares it.
+        declared: Declared,
+        /// Start value.
+        start: i32,
+    },
+}
+
+impl Entry {
+    /// Whether the model computes it, so that it has no start value.
+    pub fn is_calculated(&self) -> bool {
+        matches!(
+            self.causality,
+            Causality::Output | Causality::CalculatedParameter | Causality::Local
+        )
+    }
+
+    /// Whether it stands in the XML's InitialUnknowns: calculated outputs and calculated parameters (2.2.8).
+    pub fn is_initial_unknown(&self) -> bool {
+        matches!(
+            self.causality,
+            Causality::Output | Causality::CalculatedParameter
+        )
+    }
+}

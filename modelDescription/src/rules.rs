@@ -1,0 +1,215 @@
+//! Every rule of the standard that a declaration can break.
+
+use crate::entry::{Entry, Kind};
+use crate::error::Error;
+use crate::name::{is_identifier, is_structured};
+use declaration::{
+    Access, Causality, Description, Enumeration, Experiment, Stepping, Unit, Variability,
+    description::SCALARS_PER_ROW, provenance,
+};
+use std::collections::BTreeMap;
+
+/// What no single row can get wrong.
+pub(crate) fn check_frame<D>(description: &Description<D>) -> Result<(), Error> {
+    let Experiment {
+        start,
+        stop,
+        tolerance,
+        step,
+    } = description.experiment;
+    let positive = |value: f64| value.is_finite() && value > 0.0;
+    if !is_identifier(description.name) {
+        return Err(Error::ModelName(description.name));
+    }
+    if !(start.is_finite()
+        && stop.is_finite()
+        && start < stop
+        && positive(tolerance)
+        && positive(step))
+    {
+        return Err(Error::Experiment(description.experiment));
+    }
+    if description.variables.len() > provenance::ROW as usize {
+        return Err(Error::Rows(description.variables.len()));
+    }
+    Ok(())
+}
+
+pub(crate) fn check_row<D>(
+    stepping: Stepping,
+    row: &declaration::Variable<D>,
+    start: &mut D,
+) -> Result<(), Error> {
+    let name = row.name;
+    let held = match row.access {
+        Access::Real { at, .. } => at(start).len(),
+        Access::Integer { at, .. } | Access::Enumeration { at, .. } => at(start).len(),
+        Access::Boolean { at } => at(start).len(),
+        Access::String { at } => at(start).len(),
+    };
+    if row.len == 0 || row.len > SCALARS_PER_ROW as usize || row.len != held {
+        return Err(Error::Length {
+            row: name,
+            declared: row.len,
+            held,
+        });
+    }
+    if (row.len > 1) != name.contains("[i]") {
+        return Err(Error::VectorName {
+            row: name,
+            len: row.len,
+        });
+    }
+    let allowed: &[Variability] = match row.causality {
+        Causality::Parameter | Causality::CalculatedParameter => {
+            &[Variability::Fixed, Variability::Tunable]
+        }
+        Causality::Input | Causality::Output => &[Variability::Discrete, Variability::Continuous],
+        Causality::Local => &[
+            Variability::Fixed,
+            Variability::Tunable,
+            Variability::Discrete,
+            Variability::Continuous,
+        ],
+    };
+    let continuous = row.variability == Variability::Continuous;
+    let sampled = stepping == Stepping::Sampled && row.causality != Causality::Local;
+    let real = matches!(row.access, Access::Real { .. });
+    if !allowed.contains(&row.variability) || (continuous && (sampled || !real)) {
+        return Err(Error::Variability {
+            row: name,
+            causality: row.causality,
+            variability: row.variability,
+            stepping,
+        });
+    }
+    if let Access::Enumeration { of, .. } = row.access {
+        let ascending = of
+            .items
+            .windows(2)
+            .all(|pair| pair[0].value < pair[1].value);
+        if of.items.is_empty()
+            || !ascending
+            || !unique(of.items.iter().map(|item| item.name.to_owned()))
+        {
+            return Err(Error::Items {
+                row: name,
+                enumeration: of.name,
+            });
+        }
+    }
+    Ok(())
+}
+
+/// Positions of the scalars named by `initially_from`; a vector's name (`q[i]`) means all of its elements.
+pub(crate) fn known<D>(
+    description: &Description<D>,
+    row: &declaration::Variable<D>,
+) -> Result<Vec<usize>, Error> {
+    let calculated = matches!(
+        row.causality,
+        Causality::Output | Causality::CalculatedParameter
+    );
+    let mut positions = Vec::new();
+    for &name in row.initially_from {
+        let before = positions.len();
+        positions.extend(
+            description
+                .scalars()
+                .enumerate()
+                .filter_map(|(position, scalar)| {
+                    let given = matches!(
+                        scalar.variable.causality,
+                        Causality::Input | Causality::Parameter
+                    );
+                    (given && scalar.variable.name == name).then_some(position)
+                }),
+        );
+        if !calculated || positions.len() == before {
+            return Err(Error::InitiallyFrom {
+                row: row.name,
+                from: name,
+            });
+        }
+    }
+    positions.sort_unstable();
+    positions.dedup();
+    Ok(positions)
+}
+
+pub(crate) fn check_scalars(scalars: &[Entry]) -> Result<(), Error> {
+    let mut names = BTreeMap::new();
+    let mut units: BTreeMap<_, Unit> = BTreeMap::new();
+    let mut types: BTreeMap<_, &Enumeration> = BTreeMap::new();
+    for entry in scalars {
+        let row = || entry.name.clone();
+        if !is_structured(&entry.name) {
+            return Err(Error::Name { row: row() });
+        }
+        if let Some(other) = names.insert(entry.name.to_lowercase(), row()) {
+            return Err(Error::SameName { row: row(), other });
+        }
+        let fits = match &entry.kind {
+            Kind::Real {
+                unit,
+                start,
+                min,
+                max,
+            } => {
+                if units
+                    .insert(unit.name, *unit)
+                    .is_some_and(|other| other != *unit)
+                {
+                    return Err(Error::Unit {
+                        row: row(),
+                        unit: unit.name,
+                    });
+                }
+                let bounds = [min, max]
+                    .into_iter()
+                    .flatten()
+                    .all(|bound| bound.is_finite());
+                bounds
+                    && start.is_finite()
+                    && min.is_none_or(|min| min <= *start)
+                    && max.is_none_or(|max| *start <= max)
+            }
+            Kind::Integer { start, min, max } => {
+                min.is_none_or(|min| min <= *start) && max.is_none_or(|max| *start <= max)
+            }
+            Kind::Enumeration { of, start, .. } => {
+                if types.insert(of.name, of).is_some_and(|other| other != *of) {
+                    return Err(Error::Type {
+                        row: row(),
+                        name: of.name,
+                    });
+                }
+                of.items.iter().any(|item| item.value == *start)
+            }
+            Kind::String { start } => !start.chars().any(|c| c.is_control()),
+            Kind::Boolean { .. } => true,
+        };
+        if !fits && !entry.is_calculated() {
+            return Err(Error::Start {
+                row: row(),
+                kind: Box::new(entry.kind.clone()),
+            });
+        }
+    }
+    match scalars
+        .iter()
+        .find(|entry| types.contains_key(entry.name.as_str()))
+    {
+        Some(entry) => Err(Error::TypeAndVariable {
+            row: entry.name.clone(),
+        }),
+        None => Ok(()),
+    }
+}
+
+fn unique(names: impl Iterator<Item = String>) -> bool {
+    let mut seen = std::collections::BTreeSet::new();
+    names
+        .into_iter()
+        .all(|name| seen.insert(name.to_lowercase()))
+}
