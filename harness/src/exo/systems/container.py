@@ -9,7 +9,8 @@ itself would win over what the importer sets. Inputs are those of the system (`t
 The toolbox is BSD-2-Clause, and so is the library that it puts into the container, which is the toolbox' own binary for
 the platforms that all FMUs have (it knows linux64 with glibc 2.34, win64 and darwin64). Its licence is added to the
 archive. Author, date and identifier, which the toolbox takes from the machine and the moment, are replaced, so that two
-builds give the same bytes. Units and FMU states are lost in a container.
+builds give the same bytes; the variable `time`, which it declares, is dropped. Units and FMU states are lost in a
+container.
 """
 
 import logging
@@ -22,6 +23,7 @@ from importlib import metadata
 from io import BytesIO
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from typing import Any
 
 from fmu_manipulation_toolbox.container import FMUContainer
 from lxml import etree
@@ -89,6 +91,7 @@ def _wire(container: FMUContainer, system: System, archives: Mapping[str, Archiv
 def _packed(files: dict[str, bytes]) -> bytes:
     """The files in alphabetical order with one date, the description without traces of the machine."""
     root = etree.fromstring(files["modelDescription.xml"])
+    _without_time(root)
     del root.attrib["generationDateAndTime"], root.attrib["author"]
     root.set("license", "MIT OR Apache-2.0; the container's own library: BSD-2-Clause")
     root.set("guid", "")
@@ -105,6 +108,22 @@ def _packed(files: dict[str, bytes]) -> bytes:
             entry.compress_type = zipfile.ZIP_DEFLATED
             target.writestr(entry, files[name])
     return buffer.getvalue()
+
+
+def _without_time(root: Any) -> None:
+    """Drops the independent variable `time`: nobody needs it declared, and libcosim's library logs an error for it."""
+    variables = root.find("ModelVariables")
+    (time,) = variables.findall("ScalarVariable[@causality='independent']")
+    position = variables.index(time) + 1
+    variables.remove(time)
+
+    def moved(index: str) -> str:
+        return str(int(index) - (int(index) > position))
+
+    for unknown in root.iterfind("ModelStructure//Unknown"):
+        unknown.set("index", moved(unknown.get("index")))
+        if depends := unknown.get("dependencies"):
+            unknown.set("dependencies", " ".join(map(moved, depends.split())))
 
 
 def _licence() -> bytes:
