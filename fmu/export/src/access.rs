@@ -172,6 +172,23 @@ fn place<M: Model, V: Value>(reference: ValueReference) -> Result<Place<M, V>, F
     })
 }
 
+/// What Get may read.
+enum Readable<M: 'static, V> {
+    /// What the library was built from.
+    Constant(V),
+    Variable(Place<M, V>),
+}
+
+fn readable<M: Model, V: Value>(reference: ValueReference) -> Result<Readable<M, V>, Failure> {
+    match Provenance::find(reference) {
+        None => place(reference).map(Readable::Variable),
+        Some(of) => match V::of_text(text(of)) {
+            Some(value) => Ok(Readable::Constant(value)),
+            None => another_type::<_, V>(of.name(), reference),
+        },
+    }
+}
+
 fn another_type<T, V: Value>(name: &str, reference: ValueReference) -> Result<T, Failure> {
     refused(format!(
         "{name} (value reference {reference}) is not of type {}",
@@ -199,19 +216,20 @@ impl<M: Model> Instance<M> {
         mut put: impl FnMut(usize, &V),
     ) -> Outcome {
         if self.now.phase == Phase::InitializationMode {
+            // All are looked up before anything is computed: a refused Get changes nothing.
+            for &reference in references {
+                readable::<M, V>(reference)?;
+            }
             // What cannot be initialized yet still shows its values; fmi2ExitInitializationMode says what is wrong.
             let _ = self.initialize();
         }
         for (i, &reference) in references.iter().enumerate() {
-            if let Some(of) = Provenance::find(reference) {
-                match V::of_text(text(of)) {
-                    Some(value) => put(i, &value),
-                    None => return another_type::<_, V>(of.name(), reference),
+            match readable::<M, V>(reference)? {
+                Readable::Constant(value) => put(i, &value),
+                Readable::Variable(Place { at, element, .. }) => {
+                    put(i, &at(&mut self.now.model)[element]);
                 }
-                continue;
             }
-            let place = place::<M, V>(reference)?;
-            put(i, &(place.at)(&mut self.now.model)[place.element]);
         }
         Ok(())
     }

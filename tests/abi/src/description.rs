@@ -15,6 +15,8 @@ pub struct Description {
     co_simulation: CoSimulation,
     #[serde(rename = "LogCategories", default)]
     log_categories: LogCategories,
+    #[serde(rename = "DefaultExperiment", default)]
+    experiment: Experiment,
     #[serde(rename = "ModelVariables")]
     variables: Variables,
 }
@@ -23,6 +25,12 @@ pub struct Description {
 struct CoSimulation {
     #[serde(rename = "@modelIdentifier")]
     model_identifier: String,
+}
+
+#[derive(Debug, Default, Deserialize)]
+struct Experiment {
+    #[serde(rename = "@stepSize")]
+    step_size: Option<f64>,
 }
 
 #[derive(Debug, Default, Deserialize)]
@@ -54,11 +62,30 @@ struct Scalar {
     #[serde(rename = "@variability", default)]
     variability: String,
     #[serde(rename = "$value")]
-    kind: Vec<Kind>,
+    kind: Vec<Element>,
+}
+
+#[derive(Debug, Deserialize)]
+enum Element {
+    Real(Attributes),
+    Integer(Attributes),
+    Boolean(Attributes),
+    String(Attributes),
+    Enumeration(Attributes),
+}
+
+#[derive(Clone, Debug, Deserialize)]
+struct Attributes {
+    #[serde(rename = "@min")]
+    min: Option<f64>,
+    #[serde(rename = "@max")]
+    max: Option<f64>,
+    #[serde(rename = "@start")]
+    start: Option<String>,
 }
 
 /// Type of a variable.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// `<Real>`
     Real {},
@@ -85,6 +112,35 @@ pub struct Variable {
     pub causality: String,
     /// `fixed`, `tunable`, `discrete`, `continuous`, …
     pub variability: String,
+    /// Smallest and largest value; infinite on a side that has none, absent when neither is given.
+    pub bounds: Option<(f64, f64)>,
+    /// The attribute `start`.
+    pub start: Option<String>,
+}
+
+impl Variable {
+    fn new(scalar: &Scalar) -> Self {
+        let (kind, attributes) = match &scalar.kind[0] {
+            Element::Real(attributes) => (Kind::Real {}, attributes),
+            Element::Integer(attributes) => (Kind::Integer {}, attributes),
+            Element::Boolean(attributes) => (Kind::Boolean {}, attributes),
+            Element::String(attributes) => (Kind::String {}, attributes),
+            Element::Enumeration(attributes) => (Kind::Enumeration {}, attributes),
+        };
+        let (min, max) = (attributes.min, attributes.max);
+        Self {
+            name: scalar.name.clone(),
+            reference: scalar.reference,
+            kind,
+            causality: scalar.causality.clone(),
+            variability: scalar.variability.clone(),
+            bounds: (min.is_some() || max.is_some()).then_some((
+                min.unwrap_or(f64::NEG_INFINITY),
+                max.unwrap_or(f64::INFINITY),
+            )),
+            start: attributes.start.clone(),
+        }
+    }
 }
 
 impl Description {
@@ -112,17 +168,12 @@ impl Description {
 
     /// All variables, in the order of the file.
     pub fn variables(&self) -> Vec<Variable> {
-        self.variables
-            .list
-            .iter()
-            .map(|scalar| Variable {
-                name: scalar.name.clone(),
-                reference: scalar.reference,
-                kind: scalar.kind[0],
-                causality: scalar.causality.clone(),
-                variability: scalar.variability.clone(),
-            })
-            .collect()
+        self.variables.list.iter().map(Variable::new).collect()
+    }
+
+    /// Step size of the default experiment (s).
+    pub fn step_size(&self) -> Option<f64> {
+        self.experiment.step_size
     }
 }
 
@@ -136,9 +187,10 @@ mod tests {
             <fmiModelDescription fmiVersion="2.0" modelName="M" guid="{g}">
               <CoSimulation modelIdentifier="M_id" canGetAndSetFMUstate="true"/>
               <LogCategories><Category name="a" description="b"/></LogCategories>
+              <DefaultExperiment startTime="0.0" stepSize="0.25"/>
               <ModelVariables>
                 <ScalarVariable name="x[1]" valueReference="256" causality="input" variability="continuous">
-                  <Real unit="m" start="0"/>
+                  <Real unit="m" min="-1" start="0"/>
                 </ScalarVariable>
                 <!-- a comment between two variables -->
                 <ScalarVariable name="law" valueReference="7" causality="parameter" variability="fixed">
@@ -164,5 +216,11 @@ mod tests {
             ("law", Kind::Enumeration {})
         );
         assert_eq!(variables[1].variability, "fixed");
+        assert_eq!(variables[0].bounds, Some((-1.0, f64::INFINITY)));
+        assert_eq!(
+            (variables[1].bounds, variables[1].start.as_deref()),
+            (None, Some("4"))
+        );
+        assert_eq!(description.step_size(), Some(0.25));
     }
 }

@@ -21,6 +21,13 @@ const LAG: [(&str, Kind, &str, &str); 9] = [
     ("resource_path", Kind::String {}, "output", "discrete"),
 ];
 
+/// Bounds of the test model.
+const LAG_BOUNDS: [(&str, f64, f64); 3] = [
+    ("tau", 1e-6, 1e6),
+    ("gain", -1e3, 1e3),
+    ("method", 1.0, 2.0),
+];
+
 /// A loaded FMU.
 pub struct Fmu {
     /// Model name.
@@ -31,6 +38,8 @@ pub struct Fmu {
     pub variables: Vec<Variable>,
     /// Declared log categories.
     pub log_categories: Vec<String>,
+    /// Step size of the default experiment (s).
+    pub step_size: f64,
     /// The shared library.
     pub library: Arc<Library>,
     /// Path of the shared library.
@@ -58,7 +67,7 @@ fn existing(path: PathBuf) -> PathBuf {
 }
 
 /// The project's FMUs by name.
-const PRODUCTS: [&str; 6] = [
+pub const PRODUCTS: [&str; 6] = [
     "TestbedController",
     "Testbed",
     "ArmController",
@@ -101,6 +110,9 @@ impl Fmu {
             guid: description.guid.clone(),
             variables: description.variables(),
             log_categories: description.log_categories(),
+            step_size: description
+                .step_size()
+                .unwrap_or_else(|| panic!("{}: no stepSize", archive.display())),
             library: Arc::new(Library::load(&path)),
             path,
             folder: Some(folder),
@@ -132,6 +144,11 @@ impl Fmu {
                 kind,
                 causality: causality.into(),
                 variability: variability.into(),
+                bounds: LAG_BOUNDS
+                    .iter()
+                    .find(|(bounded, ..)| *bounded == name)
+                    .map(|&(_, min, max)| (min, max)),
+                start: None,
             })
             .collect();
         Self {
@@ -141,10 +158,50 @@ impl Fmu {
             log_categories: ["logStatusError", "logStatusWarning", "logEvents"]
                 .map(Into::into)
                 .into(),
+            step_size: 0.01,
             library,
             path,
             folder: None,
         }
+    }
+
+    /// The test model by its name, `Lag`, or one of the project's FMUs.
+    ///
+    /// # Panics
+    /// Like [`Fmu::open`].
+    pub fn named(name: &str) -> Self {
+        match name {
+            "Lag" => Self::lag(),
+            _ => Self::open(name),
+        }
+    }
+
+    /// The variables of the committed `modelDescription/<name>.xml`; the test model's are those of its source.
+    ///
+    /// # Panics
+    /// When the file cannot be read, or is not the description of this library.
+    pub fn committed_variables(&self) -> Vec<Variable> {
+        if self.folder.is_none() {
+            return self.variables.clone();
+        }
+        let path = Path::new(env!("CARGO_MANIFEST_DIR"))
+            .join("../../modelDescription")
+            .join(format!("{}.xml", self.name));
+        let text = std::fs::read_to_string(&path).unwrap_or_else(|e| panic!("{}: {e}", self.name));
+        let description =
+            Description::parse(&text).unwrap_or_else(|e| panic!("{}: {e}", self.name));
+        assert_eq!(
+            description.guid, self.guid,
+            "{} was built from another",
+            self.name
+        );
+        description.variables()
+    }
+
+    /// Whether NaN may be set, as a broken sensor gives it: the model then names the sensor.
+    pub fn takes_nan(&self, variable: &Variable) -> bool {
+        let sensed = ["f_h[", "ft.force[", "ft.torque["];
+        self.name == "ArmController" && sensed.iter().any(|name| variable.name.starts_with(name))
     }
 
     /// The test model and the project's FMUs.

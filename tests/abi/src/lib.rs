@@ -24,9 +24,15 @@
 //! | [`fmu`] | the archive, or the test model's bare library |
 //! | [`phase`] | the phases of an instance's life, and how to get there |
 //! | [`refusal`] | what a refused call is |
+//! | [`standard`] | the standard's table: which call is legal in which phase, and the deviations |
+//! | [`rights`] | which variable may be set or got in which phase |
+//! | [`calls`] | every function with good arguments |
+//! | [`sequence`] | random calls in random order |
 //!
-//! `src/bin/native_loop.rs` is the harness's zero-delay loop without the harness.
+//! `src/bin/native_loop.rs` is the harness's zero-delay loop without the harness; `src/bin/call_sequences.rs` plays random
+//! calls.
 
+pub mod calls;
 pub mod description;
 pub mod fmu;
 pub mod instance;
@@ -34,6 +40,9 @@ pub mod library;
 pub mod messages;
 pub mod phase;
 pub mod refusal;
+pub mod rights;
+pub mod sequence;
+pub mod standard;
 pub mod types;
 
 pub use description::{Kind, Variable};
