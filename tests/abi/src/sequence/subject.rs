@@ -121,7 +121,7 @@ impl Subject {
         let (start, parameter) = (self.starts[position], variable.causality == "parameter");
         match value {
             Value::Real(value) if parameter => value != start,
-            Value::Real(value) => !((value - start).abs() < 1.0),
+            Value::Real(value) => value.is_nan() || (value - start).abs() >= 1.0,
             Value::Integer(value) => parameter && f64::from(value) != start,
             Value::Boolean(value) => {
                 (parameter && f64::from(value) != start) || variable.name == "panic"
