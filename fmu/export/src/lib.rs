@@ -37,6 +37,7 @@ pub mod ffi;
 pub mod functions;
 pub mod guard;
 mod handle;
+mod identity;
 pub mod instance;
 pub mod legality;
 pub mod log;

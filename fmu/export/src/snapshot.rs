@@ -11,13 +11,14 @@
 //! | 66 | … | payload: phase, times and the model, by serde and postcard (floats bit for bit) |
 
 use crate::access::check_parameters;
+use crate::identity::{self, Identity};
 use crate::legality::Phase;
 use crate::model::Model;
 use serde::{Deserialize, Serialize};
 
 const MAGIC: &[u8; 8] = b"FMI2STAT";
 const VERSION: u32 = 1;
-const GUID: std::ops::Range<usize> = 12..50;
+const GUID: std::ops::Range<usize> = 12..12 + identity::GUID;
 const LAYOUT: usize = 50;
 const LENGTH: usize = 54;
 const CHECKSUM: usize = 62;
@@ -48,8 +49,9 @@ impl<M: Model> Snapshot<M> {
         let mut bytes = Vec::with_capacity(HEADER + payload.len());
         bytes.extend_from_slice(MAGIC);
         bytes.extend_from_slice(&VERSION.to_le_bytes());
-        bytes.extend_from_slice(M::DESCRIPTION.guid().as_bytes());
-        bytes.extend_from_slice(&layout::<M>()?.to_le_bytes());
+        let own = Identity::of::<M>()?;
+        bytes.extend_from_slice(own.guid().as_bytes());
+        bytes.extend_from_slice(&own.layout.to_le_bytes());
         bytes.extend_from_slice(&(payload.len() as u64).to_le_bytes());
         bytes.extend_from_slice(&crc32fast::hash(&payload).to_le_bytes());
         debug_assert_eq!(bytes.len(), HEADER);
@@ -79,13 +81,14 @@ impl<M: Model> Snapshot<M> {
                 "serialized state: expected format version {VERSION}, got {version}"
             ));
         }
-        let (guid, own) = (String::from_utf8_lossy(&bytes[GUID]), M::DESCRIPTION.guid());
-        if guid != own {
+        let (guid, own) = (String::from_utf8_lossy(&bytes[GUID]), Identity::of::<M>()?);
+        if guid != own.guid() {
             return Err(format!(
-                "serialized state: expected guid {own}, got {guid} (another FMU or version)"
+                "serialized state: expected guid {}, got {guid} (another FMU or version)",
+                own.guid()
             ));
         }
-        if u32::from_le_bytes(word(bytes, LAYOUT)) != layout::<M>()? {
+        if u32::from_le_bytes(word(bytes, LAYOUT)) != own.layout {
             return Err(
                 "serialized state: from another version of this FMU, with other internal states"
                     .into(),
@@ -127,13 +130,6 @@ impl<M: Model> Snapshot<M> {
             .map_err(|refusal| format!("serialized state: {refusal}"))?;
         Ok(self)
     }
-}
-
-/// Tells layouts of the state apart that the interface, and so the guid, does not.
-fn layout<M: Model>() -> Result<u32, String> {
-    postcard::to_allocvec(&M::default())
-        .map(|bytes| crc32fast::hash(&bytes))
-        .map_err(|e| format!("the model cannot be serialized: {e}"))
 }
 
 /// `N` bytes at `offset` of a slice that is long enough.
