@@ -7,6 +7,7 @@
 //! | `cargo xtask test` | everything that is checked | |
 //! | `cargo xtask reproduce` | the paper's experiments | `results/report.html` |
 //! | `cargo xtask adversary --minutes N` | attacks on the energy tank | what breaks it, in `tests/adversary/regressions.txt` |
+//! | `cargo xtask fuzz [--calls N] [--seed S] [--fmu NAME]` | random calls on the built FMUs | a failing sequence, printed |
 //! | `cargo xtask law` | the C library | `target/law/{f64,f32}` |
 //! | `cargo xtask bench` | how fast the FMUs and the harness are | |
 //! | `cargo xtask venv` | the Python environment of the others | `.venv` |
@@ -17,6 +18,7 @@
 //! | [`build`] | libraries without a trace of this machine |
 //! | [`firmware`] | the C library for a microcontroller, and its size |
 //! | [`fmu`] | archives from libraries |
+//! | [`fuzz`] | random calls on the FMUs, under memcheck |
 //! | [`linked`] | what is linked into a library, with its licence texts |
 //! | [`licence`] | which licences may be |
 //! | [`wiring`] | which output belongs to which input |
@@ -29,6 +31,7 @@ mod build;
 mod catalogue;
 mod firmware;
 mod fmu;
+mod fuzz;
 mod law;
 mod licence;
 mod linked;
@@ -83,6 +86,24 @@ enum Command {
         #[arg(long, default_value_t = 10_000_000)]
         seed: u64,
     },
+    /// Play random calls on the FMUs in target/fmu; what fails is shortened and printed with how to play it again
+    Fuzz {
+        /// Calls on each FMU
+        #[arg(long, default_value_t = 1_000_000)]
+        calls: u64,
+        /// Seed; without it another one at each run, printed
+        #[arg(long)]
+        seed: Option<u64>,
+        /// One FMU by its name, or Lag, the test model; without it all
+        #[arg(long)]
+        fmu: Option<String>,
+        /// Play one sequence: the numbers that a failure has printed
+        #[arg(long)]
+        replay: Option<String>,
+        /// Under valgrind's memcheck, about 30 times slower
+        #[arg(long)]
+        memcheck: bool,
+    },
     /// Measure: FMU calls (cargo bench), harness loop
     Bench,
     /// Create the Python environment .venv from harness/requirements.lock
@@ -97,6 +118,19 @@ fn main() -> ExitCode {
         Command::Law { bless } => law::build_all(bless),
         Command::Reproduce => stages::reproduce(),
         Command::Adversary { minutes, seed } => stages::adversary(minutes, seed),
+        Command::Fuzz {
+            calls,
+            seed,
+            fmu,
+            replay,
+            memcheck,
+        } => fuzz::fuzz(&fuzz::Request {
+            calls,
+            seed,
+            fmu,
+            replay,
+            memcheck,
+        }),
         Command::Bench => stages::bench(),
         Command::Venv => stages::venv(),
     };

@@ -135,6 +135,7 @@ pub fn test(keep_going: bool) -> Outcome {
                 cargo(["test", "--locked", "--workspace", "--exclude", "importers"]),
             )
         });
+        stages.stage("memcheck", crate::fuzz::memcheck);
         stages.stage("importers", || {
             with_libclang(venv, cargo(["test", "--locked", "--package", "importers"]))
         });

@@ -1,0 +1,134 @@
+//! Random call sequences on the built FMUs (`tests/abi`, `call_sequences`): as a command, and under valgrind's memcheck.
+
+use crate::catalogue::FMUS;
+use crate::process::{Failure, Outcome, answer, cargo, program, root, run};
+use std::path::PathBuf;
+use std::process::Command;
+
+/// Calls on each FMU under memcheck in `cargo xtask test`.
+const CALLS: u64 = 20_000;
+
+/// Seed of `cargo xtask test`.
+const SEED: u64 = 7;
+
+/// What `cargo xtask fuzz` was asked for.
+pub struct Request {
+    /// Calls on each FMU.
+    pub calls: u64,
+    /// Seed; `None` draws one from the clock.
+    pub seed: Option<u64>,
+    /// One FMU, or `Lag`; `None` is all.
+    pub fmu: Option<String>,
+    /// Numbers of a sequence to play again.
+    pub replay: Option<String>,
+    /// Under memcheck.
+    pub memcheck: bool,
+}
+
+/// The FMUs by name, and the test model.
+fn names() -> Vec<&'static str> {
+    let mut names = vec!["Lag"];
+    names.extend(FMUS.map(|fmu| fmu.name));
+    names
+}
+
+/// `cargo xtask fuzz`
+pub fn fuzz(request: &Request) -> Outcome {
+    let seed = request.seed.unwrap_or_else(|| {
+        let now = std::time::SystemTime::now().duration_since(std::time::UNIX_EPOCH);
+        now.map_or(0, |time| time.as_secs())
+    });
+    let wanted: Vec<_> = match &request.fmu {
+        Some(name) => vec![name.as_str()],
+        None => names(),
+    };
+    if request.replay.is_some() && request.fmu.is_none() {
+        return Err(Failure::Missing(
+            "--replay needs --fmu: a sequence's numbers stand for other calls on each FMU",
+        ));
+    }
+    let player = player()?;
+    println!("seed {seed}");
+    for name in wanted {
+        let mut command = if request.memcheck {
+            memchecked(&player)
+        } else {
+            program(&player, [] as [&str; 0])
+        };
+        command.args(["--fmu", name, "--seed", &seed.to_string()]);
+        command.args(["--calls", &request.calls.to_string()]);
+        if let Some(numbers) = &request.replay {
+            command.args(["--replay", numbers]);
+        }
+        run(&mut command)?;
+    }
+    Ok(())
+}
+
+/// The stage of `cargo xtask test`: every FMU under memcheck, two at a time; without valgrind the same calls natively.
+pub fn memcheck() -> Outcome {
+    let player = player()?;
+    let valgrind = answer(&mut program("valgrind", ["--version"]));
+    match &valgrind {
+        Some(version) => println!("{version}: {CALLS} calls on each FMU, seed {SEED}"),
+        None => println!(
+            "NOT RUN: memcheck, valgrind is not on PATH (Debian, Ubuntu: apt-get install valgrind); \
+             the same {CALLS} calls on each FMU without it, seed {SEED}"
+        ),
+    }
+    let names = FMUS.map(|fmu| fmu.name);
+    for pair in names.chunks(2) {
+        let outcomes = std::thread::scope(|scope| {
+            let started: Vec<_> = pair
+                .iter()
+                .map(|name| {
+                    let mut command = match valgrind {
+                        Some(_) => memchecked(&player),
+                        None => program(&player, [] as [&str; 0]),
+                    };
+                    command.args(["--fmu", name, "--seed", &SEED.to_string()]);
+                    command.args(["--calls", &CALLS.to_string()]);
+                    scope.spawn(move || run(&mut command))
+                })
+                .collect();
+            let ended = started.into_iter().map(|thread| {
+                thread
+                    .join()
+                    .unwrap_or_else(|_| Err(Failure::Found("a memcheck thread panicked".into())))
+            });
+            ended.collect::<Vec<_>>()
+        });
+        outcomes.into_iter().collect::<Outcome>()?;
+    }
+    Ok(())
+}
+
+/// The program under memcheck: any wrong access, any use of memory that nobody wrote, and any lost block is exit code 9.
+/// Blocks to which only a pointer into their middle is left do not count: Rust's standard library holds the main thread's
+/// handle so, in every program. What a library's own statics hold is lost, and so counts, once the library is closed.
+fn memchecked(player: &PathBuf) -> Command {
+    let mut command = program(
+        "valgrind",
+        [
+            "--quiet",
+            "--error-exitcode=9",
+            "--leak-check=full",
+            "--show-leak-kinds=definite,indirect",
+            "--errors-for-leak-kinds=definite,indirect",
+            "--keep-debuginfo=yes",
+            "--num-callers=30",
+        ],
+    );
+    command.arg(player);
+    command
+}
+
+/// Builds the program that plays.
+fn player() -> Outcome<PathBuf> {
+    let package = ["--locked", "--package", "abi", "--bin", "call_sequences"];
+    run(cargo(["build", "--quiet"]).args(package))?;
+    let target =
+        std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| "target".into(), PathBuf::from);
+    let name = format!("call_sequences{}", std::env::consts::EXE_SUFFIX);
+    Ok(root().join(target).join("debug").join(name))
+}
