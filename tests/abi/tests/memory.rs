@@ -1,4 +1,4 @@
-//! Instances and states do not leak. Alone in its file: the process's memory is what is measured.
+//! Instances and states do not leak: no memory, no file, no thread. Alone in its file: the process's memory is what is measured.
 #![cfg(target_os = "linux")]
 
 use abi::{Fmu, Status};
@@ -12,6 +12,16 @@ fn resident() -> usize {
         .and_then(|field| field.parse().ok())
         .expect("the second field is the resident size in pages");
     pages * 4096
+}
+
+/// Open files, sockets and the like.
+fn open_files() -> usize {
+    std::fs::read_dir("/proc/self/fd").expect("Linux").count()
+}
+
+/// Threads of the process.
+fn threads() -> usize {
+    std::fs::read_dir("/proc/self/task").expect("Linux").count()
 }
 
 /// A whole life, with everything that allocates.
@@ -38,11 +48,12 @@ fn life(fmu: &Fmu) {
 fn a_thousand_lives_do_not_grow_the_process() {
     for fmu in Fmu::all() {
         (0..200).for_each(|_| life(&fmu)); // warm: allocator arenas, lazily bound symbols
-        let before = resident();
+        let (before, others) = (resident(), (open_files(), threads()));
         (0..1000).for_each(|_| life(&fmu));
         let grown = resident().saturating_sub(before);
         // The smallest possible leak, one string or state of 64 bytes a life, would be 64 kB; an instance is ten times
         // that. Half of it is what the allocator may move around.
         assert!(grown < 32 << 10, "{} grew by {grown} bytes", fmu.name);
+        assert_eq!((open_files(), threads()), others, "{}", fmu.name);
     }
 }
