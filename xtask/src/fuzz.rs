@@ -2,7 +2,7 @@
 
 use crate::catalogue::FMUS;
 use crate::process::{Failure, Outcome, answer, cargo, program, root, run};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// Calls on each FMU under memcheck in `cargo xtask test`.
@@ -47,66 +47,85 @@ pub fn fuzz(request: &Request) -> Outcome {
             "--replay needs --fmu: a sequence's numbers stand for other calls on each FMU",
         ));
     }
+    if request.memcheck && valgrind().is_none() {
+        return Err(Failure::Missing(VALGRIND));
+    }
     let player = player()?;
     println!("seed {seed}");
-    for name in wanted {
-        let mut command = if request.memcheck {
-            memchecked(&player)
-        } else {
-            program(&player, [] as [&str; 0])
-        };
-        command.args(["--fmu", name, "--seed", &seed.to_string()]);
-        command.args(["--calls", &request.calls.to_string()]);
+    let command = |name: &str| {
+        let mut command = played(&player, name, request.calls, seed, request.memcheck);
         if let Some(numbers) = &request.replay {
             command.args(["--replay", numbers]);
         }
-        run(&mut command)?;
+        command
+    };
+    if request.memcheck {
+        return two_at_a_time(&wanted, command);
     }
-    Ok(())
+    // One after the other: each shows a bar.
+    wanted.iter().try_for_each(|name| run(&mut command(name)))
 }
 
-/// The stage of `cargo xtask test`: every FMU under memcheck, two at a time; without valgrind the same calls natively.
+/// The stage of `cargo xtask test`: every FMU under memcheck; without valgrind the same calls natively.
 pub fn memcheck() -> Outcome {
-    let player = player()?;
-    let valgrind = answer(&mut program("valgrind", ["--version"]));
+    let valgrind = valgrind();
     match &valgrind {
         Some(version) => println!("{version}: {CALLS} calls on each FMU, seed {SEED}"),
         None => println!(
-            "NOT RUN: memcheck, valgrind is not on PATH (Debian, Ubuntu: apt-get install valgrind); \
-             the same {CALLS} calls on each FMU without it, seed {SEED}"
+            "NOT RUN: memcheck, {VALGRIND}; the same {CALLS} calls on each FMU without it, seed {SEED}"
         ),
     }
-    let names = FMUS.map(|fmu| fmu.name);
+    let player = player()?;
+    two_at_a_time(&FMUS.map(|fmu| fmu.name), |name| {
+        played(&player, name, CALLS, SEED, valgrind.is_some())
+    })
+}
+
+/// What to say when it is missing.
+const VALGRIND: &str =
+    "valgrind is not on PATH; install it (Debian, Ubuntu: apt-get install valgrind)";
+
+/// Its version, if it is there.
+fn valgrind() -> Option<String> {
+    answer(&mut program("valgrind", ["--version"]))
+}
+
+/// Runs a command for each name, on two processors.
+fn two_at_a_time(names: &[&str], command: impl Fn(&str) -> Command) -> Outcome {
     for pair in names.chunks(2) {
-        let outcomes = std::thread::scope(|scope| {
+        let outcomes: Vec<_> = std::thread::scope(|scope| {
             let started: Vec<_> = pair
                 .iter()
                 .map(|name| {
-                    let mut command = match valgrind {
-                        Some(_) => memchecked(&player),
-                        None => program(&player, [] as [&str; 0]),
-                    };
-                    command.args(["--fmu", name, "--seed", &SEED.to_string()]);
-                    command.args(["--calls", &CALLS.to_string()]);
+                    let mut command = command(name);
                     scope.spawn(move || run(&mut command))
                 })
                 .collect();
-            let ended = started.into_iter().map(|thread| {
-                thread
-                    .join()
-                    .unwrap_or_else(|_| Err(Failure::Found("a memcheck thread panicked".into())))
-            });
-            ended.collect::<Vec<_>>()
+            let panicked = |_| Err(Failure::Found("a thread of this command panicked".into()));
+            let ended = started.into_iter().map(|one| one.join());
+            ended.map(|one| one.unwrap_or_else(panicked)).collect()
         });
         outcomes.into_iter().collect::<Outcome>()?;
     }
     Ok(())
 }
 
+/// The program with its arguments.
+fn played(player: &Path, name: &str, calls: u64, seed: u64, memcheck: bool) -> Command {
+    let mut command = if memcheck {
+        memchecked(player)
+    } else {
+        program(player, [] as [&str; 0])
+    };
+    command.args(["--fmu", name, "--seed", &seed.to_string()]);
+    command.args(["--calls", &calls.to_string()]);
+    command
+}
+
 /// The program under memcheck: any wrong access, any use of memory that nobody wrote, and any lost block is exit code 9.
 /// Blocks to which only a pointer into their middle is left do not count: Rust's standard library holds the main thread's
 /// handle so, in every program. What a library's own statics hold is lost, and so counts, once the library is closed.
-fn memchecked(player: &PathBuf) -> Command {
+fn memchecked(player: &Path) -> Command {
     let mut command = program(
         "valgrind",
         [
