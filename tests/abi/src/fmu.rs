@@ -1,32 +1,13 @@
 //! An FMU on disk: the archive, or the test model's bare library.
 
-use crate::description::{Description, Kind, Variable};
+use crate::Variable;
+use crate::description::Description;
 use crate::instance::{Instance, Setup};
 use crate::library::Library;
 use std::fs::File;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use tempfile::TempDir;
-
-/// Rows of `fmu/export/examples/lag.rs`, in their order. A row's value reference is 256 times its position.
-const LAG: [(&str, Kind, &str, &str); 9] = [
-    ("u", Kind::Real {}, "input", "continuous"),
-    ("y", Kind::Real {}, "output", "continuous"),
-    ("tau", Kind::Real {}, "parameter", "fixed"),
-    ("gain", Kind::Real {}, "parameter", "tunable"),
-    ("steps", Kind::Integer {}, "output", "discrete"),
-    ("panic", Kind::Boolean {}, "input", "discrete"),
-    ("method", Kind::Enumeration {}, "parameter", "fixed"),
-    ("label", Kind::String {}, "parameter", "fixed"),
-    ("resource_path", Kind::String {}, "output", "discrete"),
-];
-
-/// Bounds of the test model.
-const LAG_BOUNDS: [(&str, f64, f64); 3] = [
-    ("tau", 1e-6, 1e6),
-    ("gain", -1e3, 1e3),
-    ("method", 1.0, 2.0),
-];
 
 /// A loaded FMU.
 pub struct Fmu {
@@ -56,7 +37,8 @@ pub fn directory() -> PathBuf {
     )
 }
 
-fn existing(path: PathBuf) -> PathBuf {
+/// The path, if it is there.
+pub(crate) fn existing(path: PathBuf) -> PathBuf {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     assert!(
         path.is_file(),
@@ -116,52 +98,6 @@ impl Fmu {
             library: Arc::new(Library::load(&path)),
             path,
             folder: Some(folder),
-        }
-    }
-
-    /// Loads the test model, a bare library without XML: its variables are those of its source, its guid is the one
-    /// that its refusal of a wrong guid names.
-    ///
-    /// # Panics
-    /// When the library is missing or does not name its guid.
-    pub fn lag() -> Self {
-        let path = existing(directory().join(format!("test/liblag{SUFFIX}")));
-        let library = Arc::new(Library::load(&path));
-        let refusal = Instance::new(&library, &Setup::new("lag", "wrong"))
-            .err()
-            .expect("a wrong guid is refused");
-        let guid = refusal
-            .first()
-            .and_then(|message| message.text.split_once("expected "))
-            .map(|(_, guid)| guid.to_owned())
-            .expect("the refusal names the expected guid");
-        let variables = LAG
-            .iter()
-            .zip(0..)
-            .map(|(&(name, kind, causality, variability), row)| Variable {
-                name: name.into(),
-                reference: 256 * row,
-                kind,
-                causality: causality.into(),
-                variability: variability.into(),
-                bounds: LAG_BOUNDS
-                    .iter()
-                    .find(|(bounded, ..)| *bounded == name)
-                    .map(|&(_, min, max)| (min, max)),
-                start: None,
-            })
-            .collect();
-        Self {
-            name: "Lag".into(),
-            guid,
-            variables,
-            log_categories: ["logStatusError", "logStatusWarning", "logEvents"]
-                .map(Into::into)
-                .into(),
-            step_size: 0.01,
-            library,
-            path,
-            folder: None,
         }
     }
 
@@ -274,7 +210,7 @@ const PLATFORM: &str = if cfg!(windows) {
 } else {
     "linux64"
 };
-const SUFFIX: &str = if cfg!(windows) {
+pub(crate) const SUFFIX: &str = if cfg!(windows) {
     ".dll"
 } else if cfg!(target_os = "macos") {
     ".dylib"

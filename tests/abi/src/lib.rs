@@ -20,8 +20,8 @@
 //! | [`library`] | the 34 functions of a shared library |
 //! | [`messages`] | what an instance told its logger |
 //! | [`instance`] | one instance, with slices for arrays |
-//! | [`description`] | `modelDescription.xml`: guid, names, value references, types |
-//! | [`fmu`] | the archive, or the test model's bare library |
+//! | [`description`], [`variable`] | `modelDescription.xml`: guid, names, value references, types |
+//! | [`fmu`], [`lag`] | the archive, or the test model's bare library |
 //! | [`phase`] | the phases of an instance's life, and how to get there |
 //! | [`refusal`] | what a refused call is |
 //! | [`standard`] | the standard's table: which call is legal in which phase, and the deviations |
@@ -36,6 +36,7 @@ pub mod calls;
 pub mod description;
 pub mod fmu;
 pub mod instance;
+pub mod lag;
 pub mod library;
 pub mod messages;
 pub mod phase;
@@ -44,11 +45,12 @@ pub mod rights;
 pub mod sequence;
 pub mod standard;
 pub mod types;
+pub mod variable;
 
-pub use description::{Kind, Variable};
 pub use fmu::Fmu;
 pub use instance::{Instance, Setup};
 pub use library::Library;
 pub use messages::Message;
 pub use phase::Phase;
 pub use types::Status;
+pub use variable::{Kind, Variable};

@@ -1,4 +1,4 @@
-//! `docs/fmi-rules.md` names tests: each of them exists.
+//! `docs/fmi-rules.md` names tests and deviations: each of them exists.
 
 use std::path::{Path, PathBuf};
 
@@ -8,9 +8,11 @@ fn root() -> PathBuf {
 
 /// Rows of the tables of the document: the rule and its tests as `path::name`.
 fn rows(text: &str) -> Vec<(&str, Vec<(&str, &str)>)> {
+    let mut of_rules = false;
     let cells = text.lines().filter_map(|line| {
+        of_rules = line.starts_with('|') && (of_rules || line == "| rule | test |");
         let (rule, tests) = line.strip_prefix("| ")?.rsplit_once(" | ")?;
-        (rule != "rule").then_some((rule, tests))
+        (of_rules && rule != "rule").then_some((rule, tests))
     });
     cells
         .map(|(rule, tests)| {
@@ -54,6 +56,25 @@ fn every_rule_has_a_test_and_every_test_that_is_named_exists() {
                 "{path} has no test {name}, named for '{rule}'"
             );
         }
+    }
+}
+
+#[test]
+fn every_deviation_from_the_table_is_in_the_document_with_its_reason() {
+    let text = std::fs::read_to_string(root().join("docs/fmi-rules.md")).expect("the document");
+    let lines = |words: &[&str]| {
+        text.lines()
+            .any(|line| words.iter().all(|w| line.contains(w)))
+    };
+    for (functions, phase, reason) in abi::standard::DEVIATIONS {
+        assert!(lines(&[phase.name(), reason]), "{functions:?} in {phase:?}");
+    }
+    for (what, reason) in abi::rights::DEVIATIONS {
+        let before = what == "get before Initialization Mode"; // the same as that of the functions above
+        assert!(
+            lines(&[if before { "fmi2GetReal" } else { what }, reason]),
+            "{what}"
+        );
     }
 }
 

@@ -13,6 +13,7 @@
 //! | [`expected`] | what should come of a call |
 //! | [`journal`] | the accepted calls, repeated alone |
 //! | [`player`] | one instance, its calls and its checks |
+//! | [`slot`] | saved FMU states |
 //! | [`search`] | many sequences from a seed; the shortest one that fails |
 
 pub mod call;
@@ -20,13 +21,15 @@ pub mod expected;
 pub mod journal;
 pub mod player;
 pub mod search;
+pub mod slot;
 pub mod subject;
 
 pub use call::{Call, decode};
 pub use subject::Subject;
 
 use call::SLOTS;
-use player::{Player, Slot};
+use player::Player;
+use slot::Slot;
 
 /// What happened in a sequence, or in many.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -81,7 +84,7 @@ pub fn play(subject: &Subject, numbers: &[u32]) -> Result<Tally, String> {
             .map_err(|what| format!("at the end, instance {i}: {what}"))?;
     }
     for slot in slots.into_iter().flatten() {
-        slot.free(&players[0])?;
+        slot.free(players[0].instance())?;
     }
     Ok(tally)
 }

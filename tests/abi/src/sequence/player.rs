@@ -3,30 +3,11 @@
 use super::call::{Call, SLOTS};
 use super::expected::{Expected, Forecast, function};
 use super::journal::{Done, perform, repeat};
+use super::slot::{self, Slot};
 use super::{Subject, Tally};
-use crate::types::{FmuState, LAST_SUCCESSFUL_TIME};
+use crate::types::LAST_SUCCESSFUL_TIME;
 use crate::{Instance, Message, Phase, Status};
 use std::ptr::null_mut;
-
-/// A saved FMU state, with what is known of it.
-pub struct Slot {
-    state: FmuState,
-    bytes: Vec<u8>,
-    expected: Expected,
-}
-
-impl Slot {
-    /// Frees the state through any instance.
-    ///
-    /// # Errors
-    /// When that is refused.
-    pub fn free(mut self, player: &Player<'_>) -> Result<(), String> {
-        match player.instance.free_state(&mut self.state) {
-            Status::OK if self.state.is_null() => Ok(()),
-            status => Err(format!("a saved state is not freed: {status:?}")),
-        }
-    }
-}
 
 /// One instance.
 pub struct Player<'a> {
@@ -48,6 +29,11 @@ impl<'a> Player<'a> {
             journal: Vec::new(),
             expected: Expected::NEW,
         }
+    }
+
+    /// The instance, for what outlives its calls.
+    pub fn instance(&self) -> &Instance {
+        &self.instance
     }
 
     /// Compares the instance with one that is alone.
@@ -88,14 +74,14 @@ impl<'a> Player<'a> {
                 *self = Self::new(self.subject);
                 Status::OK
             }
-            Call::Save(slot) => self.save(&mut slots[slot]),
+            Call::Save(slot) => slot::save(&mut slots[slot], &self.instance, self.expected),
             Call::Restore(slot) => self.restore(slots[slot].as_ref(), tally)?,
             Call::Free(slot) => match slots[slot].take() {
-                Some(slot) => slot.free(self).map(|()| Status::OK)?,
+                Some(slot) => slot.free(&self.instance).map(|()| Status::OK)?,
                 None => self.instance.free_state(&mut null_mut()),
             },
-            Call::ThroughBytes(slot) => self.through_bytes(slots[slot].as_mut())?,
-            Call::Damaged(slot, byte) => self.damaged(slots[slot].as_ref(), byte)?,
+            Call::ThroughBytes(slot) => slot::through_bytes(slots[slot].as_mut(), &self.instance)?,
+            Call::Damaged(slot, byte) => slot::damaged(slots[slot].as_ref(), &self.instance, byte)?,
             _ => perform(self.subject, &self.instance, call, before.time),
         };
         let log = self.instance.messages();
@@ -179,61 +165,14 @@ impl<'a> Player<'a> {
         ))
     }
 
-    fn save(&self, slot: &mut Option<Slot>) -> Status {
-        let mut state = slot.take().map_or(null_mut(), |slot| slot.state);
-        let (l, c) = (self.instance.library(), self.instance.component());
-        // SAFETY: null or a live state of this library, which is then overwritten.
-        let status = unsafe { (l.fmi2GetFMUstate)(c, &raw mut state) };
-        if !state.is_null() {
-            *slot = Some(Slot {
-                state,
-                bytes: self.instance.serialize(state),
-                expected: self.expected,
-            });
-        }
-        status
-    }
-
     fn restore(&mut self, slot: Option<&Slot>, tally: &mut Tally) -> Result<Status, String> {
         let Some(slot) = slot else {
             return Ok(self.instance.set_state(null_mut()));
         };
-        let status = self.instance.set_state(slot.state);
-        if self.instance.bytes() != slot.bytes {
-            return Err("the restored state is not the saved one".into());
-        }
+        let status = slot.restore(&self.instance)?;
         self.expected = slot.expected;
         self.journal = vec![Done::State(slot.bytes.clone())];
         tally.restored += 1;
         Ok(status)
-    }
-
-    fn through_bytes(&self, slot: Option<&mut Slot>) -> Result<Status, String> {
-        let (l, c) = (self.instance.library(), self.instance.component());
-        let Some(slot) = slot else {
-            let mut size = 0;
-            // SAFETY: a null state is what is tried; the size is a local.
-            return Ok(unsafe { (l.fmi2SerializedFMUstateSize)(c, null_mut(), &raw mut size) });
-        };
-        let bytes = self.instance.serialize(slot.state);
-        let size = bytes.len();
-        // SAFETY: the bytes of a state, into the live state of the slot.
-        let status = unsafe {
-            (l.fmi2DeSerializeFMUstate)(c, bytes.as_ptr().cast(), size, &raw mut slot.state)
-        };
-        if bytes != slot.bytes || self.instance.serialize(slot.state) != bytes {
-            return Err("bytes there and back again differ".into());
-        }
-        Ok(status)
-    }
-
-    fn damaged(&self, slot: Option<&Slot>, byte: usize) -> Result<Status, String> {
-        let mut bytes = slot.map_or_else(|| vec![0x5a; 100], |slot| slot.bytes.clone());
-        let at = byte % bytes.len();
-        bytes[at] ^= 0x5a;
-        match self.instance.deserialize(&bytes) {
-            Ok(_) => Err(format!("byte {at} is damaged, yet a state came of it")),
-            Err(status) => Ok(status),
-        }
     }
 }
