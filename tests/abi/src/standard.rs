@@ -1,6 +1,7 @@
 //! The table of FMI 2.0.5, section 4.2.4, for co-simulation, and where these FMUs differ from it on purpose.
 
 use crate::Phase;
+use std::sync::OnceLock;
 
 /// Columns of [`TABLE`]. An instance is only ever in one of those that [`Phase`] names: see [`UNREACHABLE`].
 const COLUMNS: [&str; 10] = [
@@ -113,12 +114,16 @@ pub enum Verdict {
     Refused(Option<&'static str>),
 }
 
-/// Rows of the table: function and marks by column.
-pub fn rows() -> impl Iterator<Item = (&'static str, Vec<&'static str>)> {
-    let rows = TABLE.lines().filter(|line| line.contains("fmi2"));
-    rows.map(|line| {
-        let mut words = line.split_whitespace();
-        (words.next().unwrap_or_default(), words.collect())
+/// Rows of the table: function and marks by column. Read once: random sequences ask at every call.
+pub fn rows() -> &'static [(&'static str, Vec<&'static str>)] {
+    static ROWS: OnceLock<Vec<(&str, Vec<&str>)>> = OnceLock::new();
+    ROWS.get_or_init(|| {
+        let rows = TABLE.lines().filter(|line| line.contains("fmi2"));
+        rows.map(|line| {
+            let mut words = line.split_whitespace();
+            (words.next().unwrap_or_default(), words.collect())
+        })
+        .collect()
     })
 }
 
@@ -129,6 +134,7 @@ pub fn rows() -> impl Iterator<Item = (&'static str, Vec<&'static str>)> {
 pub fn legal(function: &str, phase: Phase) -> bool {
     let column = COLUMNS.iter().position(|&name| name == phase.name());
     let (_, marks) = rows()
+        .iter()
         .find(|(name, _)| *name == function)
         .unwrap_or_else(|| panic!("the table has no {function}"));
     column.is_some_and(|column| marks[column] != ".")
@@ -160,7 +166,7 @@ mod tests {
 
     #[test]
     fn the_table_has_all_34_functions_in_all_ten_states() {
-        let mut names: Vec<_> = rows().map(|(name, _)| name).collect();
+        let mut names: Vec<_> = rows().iter().map(|(name, _)| *name).collect();
         let mut expected = Library::FUNCTIONS;
         names.sort_unstable();
         expected.sort_unstable();
