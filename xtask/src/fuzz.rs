@@ -51,7 +51,9 @@ pub fn fuzz(request: &Request) -> Outcome {
         return Err(Failure::Missing(VALGRIND));
     }
     let player = player()?;
-    println!("seed {seed}");
+    if request.replay.is_none() {
+        println!("seed {seed}");
+    }
     let command = |name: &str| {
         let mut command = played(&player, name, request.calls, seed, request.memcheck);
         if let Some(numbers) = &request.replay {

@@ -1,4 +1,4 @@
-//! Random call sequences ([`abi::sequence`]): a million calls on the test model, some on every FMU. More, and under
+//! Random call sequences ([`abi::sequence`]): a million calls on the test model, 100,000 on every FMU. More, and under
 //! memcheck: `cargo xtask fuzz`, and the stage `memcheck` of `cargo xtask test`.
 
 use abi::Fmu;
@@ -39,6 +39,6 @@ fn a_million_calls_on_the_test_model_do_what_the_table_forecasts() {
 fn random_calls_on_every_fmu_do_what_the_table_forecasts() {
     for fmu in Fmu::products() {
         let name = fmu.name.clone();
-        all_was_tried(&name, &played(fmu, 4_000, 20_052));
+        all_was_tried(&name, &played(fmu, 100_000, 20_052));
     }
 }

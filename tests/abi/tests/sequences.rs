@@ -1,5 +1,7 @@
 //! Random calls in random order on two instances, about 200 000 of them: never a crash, only fmi2OK and fmi2Error, and
 //! always the one that a model of the standard's state machine predicts, with the values it predicts.
+//!
+//! Here every number of the test model is known in closed form. `tests/random.rs` does without that, on any FMU.
 
 use abi::types::{FmuState, LAST_SUCCESSFUL_TIME, TERMINATED};
 use abi::{Fmu, Instance, Phase, Status};
