@@ -22,7 +22,7 @@ pub fn library(package: &str, name: &str) -> Outcome<Vec<u8>> {
     run(build
         .arg(&target)
         .env("EXO_GIT_HASH", git_hash())
-        .env("CARGO_ENCODED_RUSTFLAGS", remapping()?))?;
+        .env("CARGO_ENCODED_RUSTFLAGS", remapping(&[])?))?;
     let file = format!(
         "{}{name}{}",
         std::env::consts::DLL_PREFIX,
@@ -69,8 +69,8 @@ pub fn git_hash() -> String {
     }
 }
 
-/// Compiler flags that replace this machine's paths. Where several prefixes match, the last one wins.
-pub fn remapping() -> Outcome<OsString> {
+/// Compiler flags that replace this machine's paths, and `others`. Where several prefixes match, the last one wins.
+pub fn remapping(others: &[(PathBuf, String)]) -> Outcome<OsString> {
     let mut replaced = vec![(cargo_home(), "/cargo".to_owned())];
     // The sources' folder is named after the registry that the machine uses. They must be there to be listed.
     run(&mut cargo(["fetch", "--locked", "--quiet"]))?;
@@ -80,6 +80,7 @@ pub fn remapping() -> Outcome<OsString> {
     }
     replaced.extend(sysroot().map(|path| (path, "/rust".to_owned())));
     replaced.push((root(), "/source".to_owned()));
+    replaced.extend_from_slice(others);
 
     let mut flags = OsString::new();
     for (path, name) in replaced {

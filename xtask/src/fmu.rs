@@ -96,7 +96,7 @@ fn platform() -> Outcome<&'static str> {
 }
 
 /// Replaces a file in one go, so that nobody who loads it sees half of it.
-fn replace(path: &Path, bytes: &[u8]) -> Outcome {
+pub fn replace(path: &Path, bytes: &[u8]) -> Outcome {
     if let Some(folder) = path.parent() {
         std::fs::create_dir_all(folder).map_err(at(folder))?;
     }

@@ -1,10 +1,10 @@
-//! The C library: header, static libraries in both precisions, what shows that they cannot panic, and what a
-//! microcontroller would get.
+//! The C library: header, static libraries in both precisions, what shows that they cannot panic. `cargo xtask dist`
+//! compiles it for a microcontroller, too.
 
 use crate::build::remapping;
-use crate::firmware;
 use crate::process::{Failure, Outcome, at, cargo, program, root, run};
 use std::path::{Path, PathBuf};
+use std::process::Command;
 
 /// One precision of the library.
 pub struct Precision {
@@ -44,7 +44,10 @@ fn committed() -> PathBuf {
 }
 
 /// The header that the source gives.
-fn header() -> Outcome<String> {
+///
+/// # Errors
+/// When cbindgen cannot read the source.
+pub fn header() -> Outcome<String> {
     let found = |error: &dyn std::fmt::Display| Failure::Found(format!("cbindgen: {error}"));
     let config = cbindgen::Config::from_file(source().join("cbindgen.toml"))
         .map_err(|error| found(&error))?;
@@ -83,17 +86,17 @@ pub fn build_all(bless: bool) -> Outcome {
         let flags = ["build", "--locked", "--release", "--package", package];
         run(cargo(flags).args(["--example", example]))?;
     }
-    firmware::report()
+    println!("for a Cortex-M4F: `cargo xtask dist`");
+    Ok(())
 }
 
 fn is_committed(text: &str) -> bool {
     std::fs::read_to_string(committed()).is_ok_and(|committed| committed == text)
 }
 
-/// The static library for this machine.
-fn build(precision: &Precision) -> Outcome<PathBuf> {
-    let target = root().join("target/law-build");
-    let mut build = cargo([
+/// The call of cargo that builds the static library.
+pub fn cargo_for(precision: &Precision) -> Command {
+    cargo([
         "rustc",
         "--locked",
         "--profile",
@@ -105,11 +108,16 @@ fn build(precision: &Precision) -> Outcome<PathBuf> {
         "staticlib",
         "--features",
         "freestanding",
-        "--target-dir",
-    ]);
-    run(build
+    ])
+}
+
+/// The static library for this machine.
+fn build(precision: &Precision) -> Outcome<PathBuf> {
+    let target = root().join("target/law-build");
+    run(cargo_for(precision)
+        .arg("--target-dir")
         .arg(&target)
-        .env("CARGO_ENCODED_RUSTFLAGS", remapping()?))?;
+        .env("CARGO_ENCODED_RUSTFLAGS", remapping(&[])?))?;
     Ok(target.join("law").join(precision.library))
 }
 

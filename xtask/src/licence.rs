@@ -3,14 +3,19 @@
 use crate::process::{Failure, Outcome};
 
 /// SPDX identifiers of licences that allow a closed product to contain the FMU, as long as their texts go with it.
-const ALLOWED: [&str; 8] = [
+const ALLOWED: [&str; 11] = [
     "Apache-2.0",
     "Apache-2.0 WITH LLVM-exception",
     "BSD-2-Clause",
     "BSD-3-Clause",
+    // What GCC puts into every program that it links: its exception lets a product of any licence contain it.
+    "GPL-3.0-or-later WITH GCC-exception-3.1",
     "ISC",
+    // The GNU C library's start files, with the same exception in older words.
+    "LGPL-2.1-or-later WITH GCC-exception-2.0-note",
     "MIT",
     "Unicode-3.0",
+    "ZPL-2.1",
     "Zlib",
 ];
 
@@ -95,6 +100,7 @@ mod tests {
             "MIT/Apache-2.0",
             "(MIT OR Apache-2.0) AND Unicode-3.0",
             "MIT AND Apache-2.0 WITH LLVM-exception AND (MIT OR GPL-2.0-only)",
+            "GPL-3.0-or-later WITH GCC-exception-3.1",
         ] {
             assert!(is_allowed(good), "{good}");
         }
@@ -105,6 +111,8 @@ mod tests {
             "MPL-2.0",
             "(MIT OR Apache-2.0) AND GPL-2.0-only",
             "MIT WITH LLVM-exception",
+            "GPL-3.0-or-later",
+            "LGPL-2.1-or-later",
             "(MIT",
             "MIT Apache-2.0",
             "MIT OR",

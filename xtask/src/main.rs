@@ -4,6 +4,7 @@
 //! |---|---|---|
 //! | `cargo xtask fmu` | builds the archives | `target/fmu/*.fmu`, `target/fmu/test/` |
 //! | `cargo xtask ssp` | the coupled systems for other tools | `target/ssp/*.ssp`, `*.fmu` |
+//! | `cargo xtask dist` | the archives with the libraries of every platform | `target/dist/*.fmu` |
 //! | `cargo xtask test` | everything that is checked | |
 //! | `cargo xtask reproduce` | the paper's experiments | `results/report.html` |
 //! | `cargo xtask adversary --minutes N` | attacks on the energy tank | what breaks it, in `tests/adversary/regressions.txt` |
@@ -16,20 +17,20 @@
 //! |---|---|
 //! | [`catalogue`] | the table of the FMUs, and their committed descriptions |
 //! | [`build`] | libraries without a trace of this machine |
-//! | [`firmware`] | the C library for a microcontroller, and its size |
 //! | [`fmu`] | archives from libraries |
 //! | [`fuzz`] | random calls on the FMUs, under memcheck |
 //! | [`linked`] | what is linked into a library, with its licence texts |
 //! | [`licence`] | which licences may be |
 //! | [`wiring`] | which output belongs to which input |
 //! | [`law`] | the C library: header, static libraries, example |
+//! | [`dist`] | archives for many platforms |
 //! | [`venv`] | the Python environment |
 //! | [`stages`] | commands made of stages, each with its time |
 //! | [`process`] | other programs, and what went wrong with them |
 
 mod build;
 mod catalogue;
-mod firmware;
+mod dist;
 mod fmu;
 mod fuzz;
 mod law;
@@ -63,13 +64,19 @@ enum Command {
     },
     /// Build the FMUs, then the coupled systems into target/ssp
     Ssp,
+    /// Build the FMUs for every platform that this machine has tools for, into target/dist
+    Dist {
+        /// Also run the libraries (natively, under wine, under qemu), compare every number, and build one twice
+        #[arg(long)]
+        check: bool,
+    },
     /// Run all checks: format, lints, documentation, Rust tests, importers, Python tests
     Test {
         /// Run the remaining stages after one has failed
         #[arg(long)]
         keep_going: bool,
     },
-    /// Build the C library into target/law: f64 and f32, and for a Cortex-M4F where there is a toolchain
+    /// Build the C library into target/law: f64 and f32
     Law {
         /// Also rewrite the committed header
         #[arg(long)]
@@ -114,6 +121,7 @@ fn main() -> ExitCode {
     let outcome = match Arguments::parse().command {
         Command::Fmu { bless } => stages::fmu(bless),
         Command::Ssp => stages::ssp(),
+        Command::Dist { check } => dist::dist(check),
         Command::Test { keep_going } => stages::test(keep_going),
         Command::Law { bless } => law::build_all(bless),
         Command::Reproduce => stages::reproduce(),

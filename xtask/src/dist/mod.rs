@@ -1,0 +1,277 @@
+//! `cargo xtask dist`: one archive, many platforms.
+//!
+//! What cannot be built on this machine is left out and named; what can be built and then fails is an error. With
+//! `--check` the libraries also run: a C host prints every number of every FMU, and the text must be that of linux64; and
+//! `exo validate` judges the archives.
+//!
+//! | module | what |
+//! |---|---|
+//! | [`platform`] | the table of the platforms |
+//! | [`debian`], [`toolchain`] | compilers, linkers, emulators, fetched into `target/toolchains` |
+//! | [`compile`] | one platform's libraries |
+//! | [`firmware`] | the C library for a microcontroller |
+//! | [`inspect`] | exports, needed libraries, floor of the C library |
+//! | [`runtime`] | what the tools link in, with its licences |
+//! | [`table`], [`host`] | the C host, and what two platforms must agree on |
+
+mod compile;
+mod debian;
+mod firmware;
+mod host;
+mod inspect;
+mod platform;
+mod runtime;
+mod table;
+mod toolchain;
+
+use crate::build::forbid_private_paths;
+use crate::catalogue::FMUS;
+use crate::linked;
+use crate::process::{Failure, Outcome, at, root, run};
+use crate::venv::Venv;
+use compile::{Built, Plan};
+use host::{Host, Texts, compare, moves};
+use inspect::inspect;
+use model_description::Component;
+use model_description::archive::Binary;
+use platform::{GLIBC, PLATFORMS, Platform, Runner};
+use std::time::Instant;
+use toolchain::Toolchains;
+
+/// One platform's row in the summary.
+struct Row {
+    platform: &'static Platform,
+    built: Option<Built>,
+    /// What its libraries need, or why there are none.
+    needs: String,
+    /// What was run, or why not.
+    ran: String,
+}
+
+/// Builds `target/dist/*.fmu`; with `check` also runs and compares what can be run here, and builds one library twice.
+pub fn dist(check: bool) -> Outcome {
+    let tools = Toolchains::default();
+    let mut rows = Vec::new();
+    for platform in &PLATFORMS {
+        println!("\n── {}", platform.folder);
+        let began = Instant::now();
+        let row = match Plan::of(platform, &tools) {
+            Ok(plan) => {
+                let built = plan.build(platform, &compile::folder(), None)?;
+                let needs = inspected(platform, &built)?;
+                Row {
+                    platform,
+                    built: Some(built),
+                    needs,
+                    ran: String::new(),
+                }
+            }
+            Err(reason) => Row {
+                platform,
+                built: None,
+                needs: format!("not built: {reason}"),
+                ran: String::new(),
+            },
+        };
+        println!("   {}: {:.1} s", row.needs, began.elapsed().as_secs_f64());
+        rows.push(row);
+    }
+    println!("\n── {}", firmware::TARGET);
+    let firmware = firmware::build(&tools)?;
+    merge(&rows)?;
+    systems()?;
+    if check {
+        println!("\n── run");
+        run_all(&mut rows, &tools)?;
+        built_twice(&rows, &tools)?;
+        validated(&rows)?;
+    }
+    summary(&rows, &firmware)
+}
+
+/// Inspects every library of a platform; says what they need.
+fn inspected(platform: &Platform, built: &Built) -> Outcome<String> {
+    let mut needs = std::collections::BTreeSet::new();
+    let (mut glibc, mut size) = (None, 0);
+    for (name, library) in &built.libraries {
+        let report = inspect(&library.bytes, platform, built.strict)
+            .map_err(|what| Failure::Found(format!("{name} for {}: {what}", platform.folder)))?;
+        forbid_private_paths(&library.path.to_string_lossy(), &library.bytes)?;
+        needs.extend(report.needs);
+        glibc = glibc.max(report.glibc);
+        size = size.max(library.bytes.len());
+    }
+    let needs = needs.into_iter().collect::<Vec<_>>().join(", ");
+    let floor = match glibc {
+        Some((major, minor)) if built.strict => format!("glibc {major}.{minor}; "),
+        Some((major, minor)) => {
+            format!("glibc {major}.{minor}, this machine's, for want of zig's linker; ")
+        }
+        None => String::new(),
+    };
+    Ok(format!("{floor}needs {needs}; at most {} kB", size / 1000))
+}
+
+/// Writes the archives, each twice in memory.
+fn merge(rows: &[Row]) -> Outcome {
+    let runtimes: Vec<_> = rows
+        .iter()
+        .filter_map(|row| row.built.as_ref())
+        .flat_map(|built| built.runtimes.clone())
+        .collect();
+    for fmu in FMUS {
+        let interface = fmu.interface()?;
+        let binaries: Vec<_> = rows
+            .iter()
+            .filter_map(|row| {
+                let library = row.built.as_ref()?.libraries.get(fmu.name)?;
+                Some(Binary {
+                    platform: row.platform.folder,
+                    extension: row.platform.suffix,
+                    bytes: &library.bytes,
+                })
+            })
+            .collect();
+        if binaries.is_empty() {
+            return Err(Failure::Found(format!(
+                "{}: built for no platform",
+                fmu.name
+            )));
+        }
+        let mut components = linked::components(fmu.package)?;
+        components.extend(runtimes.iter().cloned());
+        components.sort_by_key(Component::id);
+        // The two compilers can be of one version.
+        components.dedup_by_key(|component| component.id());
+        let write = || crate::fmu::archive(&fmu, &interface, &binaries, &components);
+        let bytes = write()?;
+        if bytes != write()? {
+            return Err(Failure::Found(format!("{}: two archives differ", fmu.name)));
+        }
+        let path = root()
+            .join("target/dist")
+            .join(fmu.name)
+            .with_extension("fmu");
+        crate::fmu::replace(&path, &bytes)?;
+    }
+    Ok(())
+}
+
+/// The coupled systems, with these archives in them.
+fn systems() -> Outcome {
+    let folders = ["--fmu-dir", "target/dist", "--out", "target/dist/ssp"];
+    run(Venv::ready()?.exo(["ssp"]).args(folders))
+}
+
+/// Runs the host on every platform that can be run here; all must print what the first one prints.
+fn run_all(rows: &mut [Row], tools: &Toolchains) -> Outcome {
+    let mut reference: Option<Texts> = None;
+    for row in rows {
+        let Some(built) = &row.built else { continue };
+        if row.platform.runner == Runner::Nothing {
+            row.ran = "built only, never run".to_owned();
+            continue;
+        }
+        let host = match Host::of(row.platform, tools) {
+            Ok(host) => host,
+            Err(reason) => {
+                row.ran = format!("not run: {reason}");
+                continue;
+            }
+        };
+        let texts = host.run(built, tools)?;
+        match &reference {
+            None => {
+                if let Some((name, _)) = texts.iter().find(|(_, text)| !moves(text)) {
+                    return Err(Failure::Found(format!(
+                        "{name}: nothing moves in the host's run"
+                    )));
+                }
+                let lines: usize = texts.values().map(|text| text.lines().count()).sum();
+                row.ran = format!("run, {lines} lines");
+                reference = Some(texts);
+            }
+            Some(reference) => {
+                let lines = compare(reference, &texts).map_err(|what| {
+                    Failure::Found(format!(
+                        "{} differs from {}: {what}",
+                        row.platform.folder, PLATFORMS[0].folder
+                    ))
+                })?;
+                row.ran = format!("run, {lines} lines equal bit for bit");
+            }
+        }
+        println!("   {}: {}", row.platform.folder, row.ran);
+    }
+    Ok(())
+}
+
+/// Builds the smallest FMU again in another folder: the same bytes.
+fn built_twice(rows: &[Row], tools: &Toolchains) -> Outcome {
+    const SMALLEST: &str = "HumanOperator";
+    let Some(first) = rows.first().and_then(|row| row.built.as_ref()) else {
+        return Ok(());
+    };
+    let platform = &PLATFORMS[0];
+    let plan = Plan::of(platform, tools).map_err(Failure::Found)?;
+    let folder = root().join("target/dist-again");
+    if folder.exists() {
+        std::fs::remove_dir_all(&folder).map_err(at(&folder))?;
+    }
+    let second = plan.build(platform, &folder, Some(SMALLEST))?;
+    let bytes = |built: &Built| {
+        built
+            .libraries
+            .get(SMALLEST)
+            .map(|library| library.bytes.clone())
+    };
+    if bytes(first).is_some() && bytes(first) == bytes(&second) {
+        println!("   {SMALLEST} built again in another folder: the same bytes");
+        Ok(())
+    } else {
+        Err(Failure::Found(format!(
+            "{SMALLEST} built twice: the libraries differ"
+        )))
+    }
+}
+
+/// Judges the archives with `exo validate`, which also loads and runs the library of this machine.
+fn validated(rows: &[Row]) -> Outcome {
+    let venv = Venv::ready()?;
+    let mut validate = venv.exo(["validate", "--strict"]);
+    for row in rows {
+        if let Some(built) = &row.built {
+            validate.args(["--platform", row.platform.folder]);
+            if row.platform.folder == PLATFORMS[0].folder && built.strict {
+                validate.args(["--max-glibc", &format!("{}.{}", GLIBC.0, GLIBC.1)]);
+            }
+        }
+    }
+    run(validate.args(FMUS.map(|fmu| format!("target/dist/{}.fmu", fmu.name))))
+}
+
+/// Prints what was built, run and left out, and keeps it beside the archives.
+fn summary(rows: &[Row], firmware: &Result<String, String>) -> Outcome {
+    let mut text = String::new();
+    for row in rows {
+        let state = if row.built.is_some() {
+            "built   "
+        } else {
+            "LEFT OUT"
+        };
+        text += &format!("{state} {:<15} {}\n", row.platform.folder, row.needs);
+        if !row.ran.is_empty() {
+            text += &format!("{:24} {}\n", "", row.ran);
+        }
+    }
+    text += &match firmware {
+        Ok(sizes) => format!(
+            "built    {}, the C library alone: {sizes}\n",
+            firmware::TARGET
+        ),
+        Err(reason) => format!("LEFT OUT {}: not built: {reason}\n", firmware::TARGET),
+    };
+    println!("\n{text}\ntarget/dist/*.fmu, ssp/*, law/*");
+    let path = root().join("target/dist/platforms.txt");
+    std::fs::write(&path, text).map_err(at(&path))
+}

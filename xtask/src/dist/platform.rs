@@ -1,0 +1,145 @@
+//! The table of the platforms.
+
+/// Which standard library a platform's libraries are linked with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Standard {
+    /// The one that comes with the compiler of this machine.
+    Shipped,
+    /// Built from source with Debian's compiler, because no compiled one can be had.
+    FromSource,
+}
+
+/// Who links.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Linker {
+    /// zig, through cargo-zigbuild.
+    Zig,
+    /// GCC for Windows.
+    MinGw,
+    /// LLVM's linker for macOS, which comes with the compiler of this machine. zig's own offers every function of the
+    /// library to the world, and writes into it where it was built.
+    Lld,
+}
+
+/// What runs the platform's programs on this machine.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Runner {
+    /// The machine itself.
+    Machine,
+    /// wine
+    Wine,
+    /// qemu in user mode
+    Qemu,
+    /// Nothing: built, not run.
+    Nothing,
+}
+
+/// One platform.
+#[derive(Debug)]
+pub struct Platform {
+    /// Folder in the archive.
+    pub folder: &'static str,
+    /// Rust's name.
+    pub target: &'static str,
+    /// Start of a library's file name as cargo writes it.
+    pub prefix: &'static str,
+    /// Its end, in the archive too.
+    pub suffix: &'static str,
+    /// Standard library.
+    pub standard: Standard,
+    /// Linker.
+    pub linker: Linker,
+    /// How it is tried.
+    pub runner: Runner,
+}
+
+/// Newest version of the GNU C library that a Linux library may ask for: that of 2012, older than every system in use.
+pub const GLIBC: (u32, u32) = (2, 17);
+
+/// All platforms. The first is what the others are compared with.
+pub const PLATFORMS: [Platform; 5] = [
+    Platform {
+        folder: "linux64",
+        target: "x86_64-unknown-linux-gnu",
+        prefix: "lib",
+        suffix: ".so",
+        standard: Standard::Shipped,
+        linker: Linker::Zig,
+        runner: Runner::Machine,
+    },
+    Platform {
+        folder: "win64",
+        target: "x86_64-pc-windows-gnu",
+        prefix: "",
+        suffix: ".dll",
+        standard: Standard::FromSource,
+        linker: Linker::MinGw,
+        runner: Runner::Wine,
+    },
+    Platform {
+        folder: "aarch64-linux",
+        target: "aarch64-unknown-linux-gnu",
+        prefix: "lib",
+        suffix: ".so",
+        standard: Standard::FromSource,
+        linker: Linker::Zig,
+        runner: Runner::Qemu,
+    },
+    Platform {
+        folder: "darwin64",
+        target: "x86_64-apple-darwin",
+        prefix: "lib",
+        suffix: ".dylib",
+        standard: Standard::FromSource,
+        linker: Linker::Lld,
+        runner: Runner::Nothing,
+    },
+    Platform {
+        folder: "aarch64-darwin",
+        target: "aarch64-apple-darwin",
+        prefix: "lib",
+        suffix: ".dylib",
+        standard: Standard::FromSource,
+        linker: Linker::Lld,
+        runner: Runner::Nothing,
+    },
+];
+
+impl Platform {
+    /// What cargo-zigbuild is told: the target, with the oldest C library to support.
+    pub fn zig_target(&self) -> String {
+        format!("{}.{}.{}", self.target, GLIBC.0, GLIBC.1)
+    }
+
+    /// What zig's C compiler is told.
+    pub fn zig_c_target(&self) -> String {
+        let machine = self.target.split('-').next().unwrap_or_default();
+        format!("{machine}-linux-gnu.{}.{}", GLIBC.0, GLIBC.1)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_first_platform_is_the_one_that_runs_without_an_emulator() {
+        assert_eq!(PLATFORMS[0].runner, Runner::Machine);
+        assert!(
+            PLATFORMS[1..]
+                .iter()
+                .all(|other| other.runner != Runner::Machine)
+        );
+    }
+
+    #[test]
+    fn linux_is_asked_for_with_its_oldest_c_library() {
+        let asked: Vec<_> = PLATFORMS
+            .iter()
+            .filter(|platform| platform.linker == Linker::Zig)
+            .map(Platform::zig_target)
+            .collect();
+        let expected = ["x86_64", "aarch64"].map(|arch| format!("{arch}-unknown-linux-gnu.2.17"));
+        assert_eq!(asked, expected);
+    }
+}

@@ -1,0 +1,268 @@
+//! The tools that make and run libraries of other platforms, in `target/toolchains`. Each is fetched once; what cannot
+//! be had is a reason in words, not a failure.
+
+use super::debian::{Debian, quietly};
+use crate::process::{Outcome, answer, at, program, root};
+use std::cell::OnceCell;
+use std::ffi::OsString;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// A tool's folder, or why it is not there.
+type Tool = Result<PathBuf, String>;
+
+/// All tools.
+#[derive(Default)]
+pub struct Toolchains {
+    debian: OnceCell<Result<Debian, String>>,
+    zig: OnceCell<Tool>,
+    rust: OnceCell<Tool>,
+    apple: OnceCell<Tool>,
+    mingw: OnceCell<Tool>,
+    arm_binutils: OnceCell<Tool>,
+    wine: OnceCell<Tool>,
+    qemu: OnceCell<Tool>,
+}
+
+impl Toolchains {
+    /// zig and cargo-zigbuild: the folder of their programs.
+    pub fn zig(&self) -> Tool {
+        self.zig
+            .get_or_init(|| {
+                let lock = root().join("xtask/wheels.lock");
+                let wanted = std::fs::read_to_string(&lock).unwrap_or_default();
+                let folder = complete("zig", &wanted, |folder| wheels(folder, &lock))?;
+                Ok(folder.join("bin"))
+            })
+            .clone()
+    }
+
+    /// Debian's compiler with the source of its standard library.
+    pub fn rust(&self) -> Tool {
+        self.rust
+            .get_or_init(|| {
+                complete("rust", "1", |_| {
+                    let debian = self.debian()?;
+                    let shared = debian
+                        .dependencies("libstd-rust-web-dev")
+                        .into_iter()
+                        .find(|name| name.starts_with("libstd-rust-web-"))
+                        .ok_or("Debian has no package libstd-rust-web-dev here")?;
+                    let mut packages: Vec<_> = debian
+                        .dependencies(&shared)
+                        .into_iter()
+                        .filter(|name| name.starts_with("libllvm"))
+                        .collect();
+                    packages.extend(
+                        ["rustc-web", &shared, "libstd-rust-web-dev", "rust-web-src"]
+                            .map(str::to_owned),
+                    );
+                    debian.unpacked("rust", &packages).map(|_| ())
+                })
+            })
+            .clone()
+    }
+
+    /// What a linker must know of macOS: the names in its system library, as a folder like that of Apple's SDK. zig has them,
+    /// with names of processors that a linker of another version does not know.
+    pub fn apple(&self) -> Tool {
+        self.apple
+            .get_or_init(|| {
+                let names = self.zig()?;
+                let names = zig_folder(&names).join("lib/libc/darwin/libSystem.tbd");
+                let text = std::fs::read_to_string(&names)
+                    .map_err(|cause| format!("zig's names of macOS cannot be read: {cause}"))?
+                    .replace("arm64e.x1-", "arm64-")
+                    .replace("arm64e-", "arm64-");
+                complete("apple", &text, |folder| {
+                    let libraries = folder.join("usr/lib");
+                    std::fs::create_dir_all(&libraries).map_err(|cause| cause.to_string())?;
+                    for name in ["libSystem.tbd", "libc.tbd", "libm.tbd"] {
+                        write(&libraries.join(name), &text)
+                            .map_err(|failure| failure.to_string())?;
+                    }
+                    Ok(())
+                })
+            })
+            .clone()
+    }
+
+    /// LLVM's linker, beside the standard library of the compiler of this machine.
+    pub fn lld(&self) -> Tool {
+        let rustc = std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into());
+        let sysroot = answer(&mut program(rustc, ["--print", "sysroot"])).unwrap_or_default();
+        let lld = Path::new(&sysroot).join("lib/rustlib/x86_64-unknown-linux-gnu/bin/rust-lld");
+        if lld.exists() {
+            Ok(lld)
+        } else {
+            Err("the compiler of this machine comes without rust-lld".to_owned())
+        }
+    }
+
+    /// GCC for Windows.
+    pub fn mingw(&self) -> Tool {
+        self.packages(
+            &self.mingw,
+            "mingw",
+            &[
+                "binutils-mingw-w64-x86-64",
+                "gcc-mingw-w64-base",
+                "gcc-mingw-w64-x86-64-win32",
+                "gcc-mingw-w64-x86-64-win32-runtime",
+                "mingw-w64-common",
+                "mingw-w64-x86-64-dev",
+            ],
+        )
+    }
+
+    /// A linker for microcontrollers.
+    pub fn arm_binutils(&self) -> Tool {
+        let packages = ["binutils-arm-none-eabi"];
+        self.packages(&self.arm_binutils, "arm-binutils", &packages)
+    }
+
+    /// wine, for 64-bit programs without windows.
+    pub fn wine(&self) -> Tool {
+        let packages = ["wine64", "libwine", "libunwind8", "libz-mingw-w64"];
+        let folder = self.packages(&self.wine, "wine", &packages)?;
+        // The package's wineserver is a script with fixed paths; wine's own zlib lies where the package manager links it.
+        for (from, to) in [
+            ("usr/lib/wine/wineserver64", "usr/lib/wine/wineserver"),
+            (
+                "usr/x86_64-w64-mingw32/lib/zlib1.dll",
+                "usr/lib/x86_64-linux-gnu/wine/x86_64-windows/zlib1.dll",
+            ),
+        ] {
+            std::fs::copy(folder.join(from), folder.join(to))
+                .map_err(|cause| format!("wine's package has changed: {from}: {cause}"))?;
+        }
+        Ok(folder)
+    }
+
+    /// qemu for programs of aarch64 Linux, and their C library.
+    pub fn qemu(&self) -> Tool {
+        let packages = [
+            "qemu-user-static",
+            "libc6-arm64-cross",
+            "libgcc-s1-arm64-cross",
+        ];
+        self.packages(&self.qemu, "qemu", &packages)
+    }
+
+    fn packages(&self, cell: &OnceCell<Tool>, name: &str, packages: &[&str]) -> Tool {
+        let packages: Vec<_> = packages.iter().map(|&name| name.to_owned()).collect();
+        cell.get_or_init(|| {
+            complete(name, &packages.join(" "), |_| {
+                self.debian()?.unpacked(name, &packages).map(|_| ())
+            })
+        })
+        .clone()
+    }
+
+    fn debian(&self) -> Result<&Debian, String> {
+        let debian = self.debian.get_or_init(|| Debian::at(folder()));
+        debian.as_ref().map_err(Clone::clone)
+    }
+
+    /// A program of a Windows machine.
+    pub fn under_wine(&self, folder: &Path, executable: &Path) -> Command {
+        let mut command = limited(folder.join("usr/lib/wine/wine64"));
+        with_libraries(&mut command, folder)
+            .arg(executable)
+            .env("WINEPREFIX", self::folder().join("wine-prefix"))
+            .env("WINEDLLOVERRIDES", "mscoree,mshtml=")
+            .env("WINEDEBUG", "-all")
+            .env_remove("DISPLAY");
+        command
+    }
+
+    /// A program of an aarch64 Linux machine.
+    pub fn under_qemu(&self, folder: &Path, executable: &Path) -> Command {
+        let mut command = limited(folder.join("usr/bin/qemu-aarch64-static"));
+        command
+            .arg("-L")
+            .arg(folder.join("usr/aarch64-linux-gnu"))
+            .arg(executable);
+        command
+    }
+}
+
+/// An emulator, ended when it hangs: wine's first start takes a quarter of a minute, a run a few seconds.
+fn limited(emulator: PathBuf) -> Command {
+    let mut command = program("timeout", ["600"]);
+    command.arg(emulator);
+    command
+}
+
+/// Where all tools lie.
+pub fn folder() -> PathBuf {
+    root().join("target/toolchains")
+}
+
+/// `PATH` with a folder before all others.
+pub fn path_with(first: &Path) -> OsString {
+    let others = std::env::var_os("PATH").unwrap_or_default();
+    let mut folders = vec![first.to_path_buf()];
+    folders.extend(std::env::split_paths(&others));
+    std::env::join_paths(folders).unwrap_or(others)
+}
+
+/// Where the wheel of zig lies.
+pub fn zig_folder(programs: &Path) -> PathBuf {
+    let place = "import os, ziglang; print(os.path.dirname(ziglang.__file__))";
+    answer(&mut program(programs.join("python"), ["-c", place]))
+        .unwrap_or_default()
+        .into()
+}
+
+/// A program from an unpacked folder of packages finds its shared libraries there.
+pub fn with_libraries<'a>(command: &'a mut Command, folder: &Path) -> &'a mut Command {
+    command.env("LD_LIBRARY_PATH", folder.join("usr/lib/x86_64-linux-gnu"))
+}
+
+/// zig's caches, kept out of the user's home.
+pub fn with_zig<'a>(command: &'a mut Command, programs: &Path) -> &'a mut Command {
+    command
+        .env("PATH", path_with(programs))
+        .env("ZIG_GLOBAL_CACHE_DIR", folder().join("zig-cache"))
+        .env("ZIG_LOCAL_CACHE_DIR", folder().join("zig-cache"))
+        .env("CARGO_ZIGBUILD_CACHE_DIR", folder().join("zigbuild-cache"))
+}
+
+/// Makes a tool's folder, unless it was completed before from the same `wanted`.
+fn complete(name: &str, wanted: &str, make: impl FnOnce(&Path) -> Result<(), String>) -> Tool {
+    let folder = folder().join(name);
+    let stamp = folder.join("made-from");
+    if std::fs::read_to_string(&stamp).is_ok_and(|text| text == wanted) {
+        return Ok(folder);
+    }
+    println!("fetching {name} into target/toolchains");
+    let _ = std::fs::remove_dir_all(&folder);
+    make(&folder)?;
+    // Last: an interrupted one leaves no stamp.
+    write(&stamp, wanted).map_err(|failure| failure.to_string())?;
+    Ok(folder)
+}
+
+fn write(path: &Path, text: &str) -> Outcome {
+    std::fs::write(path, text).map_err(at(path))
+}
+
+/// A Python environment of its own: these tools are none of the harness' business.
+fn wheels(folder: &Path, lock: &Path) -> Result<(), String> {
+    let reason = "the wheels of xtask/wheels.lock cannot be installed";
+    let mut make = program("python3", ["-m", "venv"]);
+    quietly(make.arg(folder)).map_err(|_| reason.to_owned())?;
+    let mut pip = program(folder.join("bin/python"), ["-m", "pip", "install"]);
+    pip.args([
+        "--quiet",
+        "--no-input",
+        "--disable-pip-version-check",
+        "--no-deps",
+        "--require-hashes",
+        "--only-binary=:all:",
+        "-r",
+    ])
+    .arg(lock);
+    quietly(&mut pip).map_err(|_| reason.to_owned())
+}
