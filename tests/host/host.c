@@ -95,9 +95,9 @@ static void load(const char *path)
 
 /* ---- the table: one variable a line ---- */
 
-enum { REAL_INPUT, BOOLEAN_INPUT, REAL_OUTPUT, INTEGER_OUTPUT, BOOLEAN_OUTPUT, KINDS };
-static const char *const WORDS[KINDS] = {"real-input", "boolean-input", "real-output", "integer-output",
-                                         "boolean-output"};
+enum { REAL_INPUT, BOOLEAN_INPUT, REAL_SETTING, BOOLEAN_SETTING, REAL_OUTPUT, INTEGER_OUTPUT, BOOLEAN_OUTPUT, KINDS };
+static const char *const WORDS[KINDS] = {"real-input",     "boolean-input", "real-setting",  "boolean-setting",
+                                         "real-output",    "integer-output", "boolean-output"};
 
 static char name[256], guid[256];
 static double T;         /* communication step size, s */
@@ -106,6 +106,8 @@ enum { MOST = 4096 };
 static Reference references[KINDS][MOST];
 static size_t count[KINDS];
 static double start[MOST], amplitude[MOST]; /* of the Real inputs */
+static double real_setting[MOST];            /* values of parameters, set before initialization */
+static int boolean_setting[MOST];
 
 static void read_table(const char *path)
 {
@@ -123,6 +125,8 @@ static void read_table(const char *path)
                 if (!strcmp(word, WORDS[kind]) && count[kind] < MOST) {
                     size_t i = count[kind]++;
                     good = fscanf(file, "%u", &references[kind][i]) == 1;
+                    if (kind == REAL_SETTING) good = good && fscanf(file, "%lf", &real_setting[i]) == 1;
+                    if (kind == BOOLEAN_SETTING) good = good && fscanf(file, "%d", &boolean_setting[i]) == 1;
                     if (kind == REAL_INPUT) good = good && fscanf(file, "%lf %lf", &start[i], &amplitude[i]) == 2;
                 }
         if (!good) stop("not understood in the table", word);
@@ -226,6 +230,9 @@ static void run(long from, long to)
 static void initialize(void)
 {
     say("fmi2SetupExperiment", fmi2.SetupExperiment(c, 0, 0.0, 0.0, 0, 0.0));
+    expect(fmi2.SetReal(c, references[REAL_SETTING], count[REAL_SETTING], real_setting) == fmi2OK &&
+               fmi2.SetBoolean(c, references[BOOLEAN_SETTING], count[BOOLEAN_SETTING], boolean_setting) == fmi2OK,
+           "parameters can be set");
     say("fmi2EnterInitializationMode", fmi2.EnterInitializationMode(c));
     say("fmi2ExitInitializationMode", fmi2.ExitInitializationMode(c));
 }

@@ -5,6 +5,22 @@ use model_description::Interface;
 use model_description::entry::Kind;
 use std::fmt::Write as _;
 
+/// Parameters that are set, so that something happens: the arm meets a table with a payload and measures with noise, both
+/// arms hold one, the hand pushes and is stiff.
+const SETTINGS: [(&str, &str, f64); 11] = [
+    ("ExoskeletonArm", "ft.noise", 0.2),
+    ("ExoskeletonArm", "table.z", -0.3771),
+    ("ExoskeletonArm", "payload.m", 17.5),
+    ("ExoskeletonArm", "payload.attached", 1.0),
+    ("ExoskeletonArms", "table.z", -0.3771),
+    ("ExoskeletonArms", "payload.m", 35.0),
+    ("ExoskeletonArms", "payload.attached", 1.0),
+    ("HumanOperator", "segment[1].amplitude", 6.0),
+    ("HumanOperator", "k_h", 50.0),
+    ("HumanOperator", "b_h", 1.0),
+    ("HumanOperator", "delay", 0.01),
+];
+
 /// The table of an FMU.
 pub fn of(interface: &Interface) -> String {
     let mut text = format!(
@@ -12,6 +28,16 @@ pub fn of(interface: &Interface) -> String {
         interface.name, interface.guid, interface.experiment.step
     );
     for scalar in &interface.scalars {
+        let setting = SETTINGS
+            .iter()
+            .find(|(fmu, name, _)| *fmu == interface.name && *name == scalar.name);
+        if let Some((_, _, value)) = setting {
+            let kind = match scalar.kind {
+                Kind::Boolean { .. } => "boolean-setting",
+                _ => "real-setting",
+            };
+            let _ = writeln!(text, "{kind} {} {value}", scalar.reference);
+        }
         let input = scalar.causality == Causality::Input;
         let reference = scalar.reference;
         let _ = match (&scalar.kind, input) {
@@ -67,7 +93,11 @@ mod tests {
                         || matches!(scalar.kind, Kind::Real { .. } | Kind::Boolean { .. })
                 })
                 .count();
-            assert_eq!(lines, 3 + numbers, "{}", fmu.name);
+            let settings = SETTINGS
+                .iter()
+                .filter(|(name, _, _)| *name == fmu.name)
+                .count();
+            assert_eq!(lines, 3 + settings + numbers, "{}", fmu.name);
         }
     }
 }
