@@ -2,6 +2,7 @@
 
 use crate::entry::{Entry, Kind};
 use crate::guide::{self, Guide};
+use crate::html::{escape, table};
 use crate::interface::Interface;
 use crate::quick_start;
 use crate::xml::{self, LOG_CATEGORIES, double, variability};
@@ -271,23 +272,4 @@ fn log(page: &mut String) {
         );
     }
     page.push_str("</table>\n");
-}
-
-/// Opens a table; without titles it has no head.
-pub(crate) fn table(page: &mut String, columns: &[&str]) {
-    page.push_str("<table>\n");
-    if columns.iter().any(|column| !column.is_empty()) {
-        let head: String = columns
-            .iter()
-            .map(|column| format!("<th>{column}</th>"))
-            .collect();
-        let _ = writeln!(page, "<tr>{head}</tr>");
-    }
-}
-
-pub(crate) fn escape(text: &str) -> String {
-    text.replace('&', "&amp;")
-        .replace('<', "&lt;")
-        .replace('>', "&gt;")
-        .replace('"', "&quot;")
 }

@@ -1,7 +1,7 @@
 //! The part of the interface document that the rows cannot tell: a picture of signs and frames, and which variables of
 //! which FMUs belong together. No model is known here, so it is given.
 
-use crate::document::{escape, table};
+use crate::html::{escape, table};
 use std::fmt::Write as _;
 
 /// What the document shows besides the rows.

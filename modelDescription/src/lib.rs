@@ -37,6 +37,7 @@
 //! | [`name`] | names of the structured naming convention | | 2.2.9 |
 //! | [`schema`], [`mod@xml`] | the XML's elements, and their contents | `modelDescription.xml` | 2.2, 4.3.1 |
 //! | [`mod@document`] | the interface document for humans | `documentation/index.html` | 2.3 |
+//! | `html` | its pieces | | |
 //! | [`guide`] | what the rows cannot tell: picture, wiring | in the document | |
 //! | [`quick_start`] | first steps in a few tools | in the document | |
 //! | [`component`], [`mod@sbom`] | what is linked in, and its bill of materials | `documentation/sbom.cdx.json` | |
@@ -53,6 +54,7 @@ pub mod entry;
 pub mod error;
 pub mod guide;
 pub mod header;
+mod html;
 pub mod interface;
 pub mod licences;
 pub mod name;

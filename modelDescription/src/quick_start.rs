@@ -1,6 +1,6 @@
 //! The document's first steps in a few tools. They need the archive and nothing else.
 
-use crate::document::escape;
+use crate::html::escape;
 use crate::xml::double;
 use crate::{Connection, Interface};
 use std::fmt::Write as _;
