@@ -1,5 +1,6 @@
 """The table of importers says what is so: versions, files, FMUs, and the documents that show it."""
 
+import re
 import tomllib
 from importlib import metadata
 from pathlib import Path
@@ -45,6 +46,14 @@ def test_the_states_of_platforms_are_known_and_the_first_one_is_run() -> None:
     assert MATRIX.platform[0]["name"] == "linux64"
     assert MATRIX.platform[0]["state"] == "run"
     assert all(one["state"] in STATES for one in MATRIX.platform)
+
+
+def test_the_platforms_are_those_that_are_distributed() -> None:
+    table = (ROOT / "xtask/src/dist/platform.rs").read_text(encoding="utf-8")
+    runners = re.findall(r'folder: "([^"]+)",.*?runner: Runner::(\w+),', table, flags=re.DOTALL)
+    assert len(runners) >= 5
+    expected = {folder: "built" if runner == "Nothing" else "run" for folder, runner in runners}
+    assert {one["name"]: one["state"] for one in MATRIX.platform} == expected
 
 
 @pytest.mark.parametrize("document", DOCUMENTS)

@@ -53,7 +53,7 @@ class Matrix:
                 rows = [
                     [f"`{one['name']}`" if "(" not in one["name"] else one["name"]]
                     + ["run" if name in one["ran"] else "–" for name in importers]
-                    + [STATES[other["state"]] for other in others]
+                    + [STATES[other["state"] if one["name"].endswith(".fmu") else "absent"] for other in others]
                     for one in self.subject
                 ]
         lines = [head, ["---"] * len(head), *rows]
