@@ -47,9 +47,9 @@ class Matrix:
                 head = ["not run", "why"]
                 rows = [[one["name"], one["why"]] for one in self.absent]
             case _:
-                first, *others = self.platform
+                _, *others = self.platform
                 importers = [one["name"] for one in self.importer]
-                head = [f"on {first['name']}", *importers, *(one["name"] for one in others)]
+                head = ["archive", *importers, *(one["name"] for one in others)]
                 rows = [
                     [f"`{one['name']}`" if "(" not in one["name"] else one["name"]]
                     + ["run" if name in one["ran"] else "–" for name in importers]
