@@ -10,7 +10,7 @@
 //! | [`debian`], [`toolchain`] | compilers, linkers, emulators, fetched into `target/toolchains` |
 //! | [`compile`] | one platform's libraries |
 //! | [`firmware`] | the C library for a microcontroller |
-//! | [`inspect`] | exports, needed libraries, floor of the C library |
+//! | [`mod@inspect`] | exports, needed libraries, floor of the C library |
 //! | [`runtime`] | what the tools link in, with its licences |
 //! | [`table`], [`host`] | the C host, and what two platforms must agree on |
 
