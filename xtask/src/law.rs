@@ -15,7 +15,7 @@ pub struct Precision {
     /// Name of the library.
     pub library: &'static str,
     /// What a C compiler must be told.
-    define: Option<&'static str>,
+    pub define: Option<&'static str>,
 }
 
 /// Both.
@@ -112,7 +112,10 @@ pub fn cargo_for(precision: &Precision) -> Command {
 }
 
 /// The static library for this machine.
-fn build(precision: &Precision) -> Outcome<PathBuf> {
+///
+/// # Errors
+/// When cargo fails.
+pub fn build(precision: &Precision) -> Outcome<PathBuf> {
     let target = root().join("target/law-build");
     run(cargo_for(precision)
         .arg("--target-dir")

@@ -6,6 +6,7 @@ use crate::build::remapping;
 use crate::law::{self, PRECISIONS};
 use crate::process::{Failure, Outcome, answer, at, program, root, run};
 use std::path::Path;
+use std::process::Command;
 
 /// Rust's name of the platform.
 pub const TARGET: &str = "thumbv7em-none-eabihf";
@@ -74,22 +75,23 @@ pub fn build(tools: &Toolchains) -> Outcome<Result<String, String>> {
     Ok(Ok(format!("bytes of code: {}", sizes.join(", "))))
 }
 
+/// The linker.
+pub fn linker(binutils: &Path) -> Command {
+    program::<&str>(binutils.join("usr/bin/arm-none-eabi-ld"), [])
+}
+
 /// Size of a program that calls `functions` and nothing else, in bytes: code and constants. That it links shows that the
 /// library needs `core` only and that no path panics.
 fn linked(binutils: &Path, library: &Path, functions: &[&str]) -> Outcome<u64> {
-    let tool = |name: &str| {
-        binutils
-            .join("usr/bin")
-            .join(format!("arm-none-eabi-{name}"))
-    };
     let image = library.with_extension("elf");
-    let mut link = program(tool("ld"), ["--gc-sections", "--no-undefined", "-e", "0"]);
+    let mut link = linker(binutils);
+    link.args(["--gc-sections", "--no-undefined", "-e", "0"]);
     for function in functions {
         link.args(["-u", function]);
     }
     link.arg(library).arg("-o").arg(&image);
     run(with_libraries(&mut link, binutils))?;
-    let mut size = program(tool("size"), [&image]);
+    let mut size = program(binutils.join("usr/bin/arm-none-eabi-size"), [&image]);
     answer(with_libraries(size.arg("-B"), binutils))
         .and_then(|text| text.lines().nth(1)?.split_whitespace().next()?.parse().ok())
         .ok_or_else(|| Failure::Found(format!("no size of {}", image.display())))

@@ -9,7 +9,7 @@
 //! | [`platform`] | the table of the platforms |
 //! | [`debian`], [`toolchain`] | compilers, linkers, emulators, fetched into `target/toolchains` |
 //! | [`compile`] | one platform's libraries |
-//! | [`firmware`] | the C library for a microcontroller |
+//! | [`firmware`], [`processor`] | the C library for a microcontroller, and run emulated |
 //! | [`mod@inspect`] | exports, needed libraries, floor of the C library |
 //! | [`runtime`] | what the tools link in, with its licences |
 //! | [`table`], [`host`] | the C host, and what two platforms must agree on |
@@ -20,6 +20,7 @@ mod firmware;
 mod host;
 mod inspect;
 mod platform;
+mod processor;
 mod runtime;
 mod table;
 mod toolchain;
@@ -77,12 +78,17 @@ pub fn dist(check: bool) -> Outcome {
         rows.push(row);
     }
     println!("\n── {}", firmware::TARGET);
-    let firmware = firmware::build(&tools)?;
+    let mut firmware = firmware::build(&tools)?;
     merge(&rows)?;
     systems()?;
     if check {
         println!("\n── run");
         run_all(&mut rows, &tools)?;
+        if let Ok(said) = &mut firmware {
+            let ran = processor::run(&tools)?.unwrap_or_else(|reason| format!("not run: {reason}"));
+            println!("   {}: {ran}", firmware::TARGET);
+            *said += &format!("; {ran}");
+        }
         built_twice(&rows, &tools)?;
         validated(&rows)?;
     }
