@@ -50,6 +50,26 @@ fn only_the_system_s_own_libraries_are_needed() {
     }
 }
 
+/// Each platform's C library rounds these in its own way, so that the numbers would be another machine's.
+#[test]
+fn no_mathematics_of_the_platform_is_called() {
+    let rounded = [
+        "sin", "cos", "sincos", "tan", "asin", "acos", "atan", "atan2", "sinh", "cosh", "tanh",
+        "exp", "exp2", "expm1", "log", "log2", "log10", "log1p", "pow", "cbrt", "hypot",
+    ];
+    for fmu in Fmu::all() {
+        let data = bytes(&fmu);
+        let file = ElfFile64::<Endianness>::parse(&*data).expect("an ELF file");
+        for symbol in file
+            .dynamic_symbols()
+            .filter(|symbol| symbol.is_undefined())
+        {
+            let name = symbol.name().expect("UTF-8");
+            assert!(!rounded.contains(&name), "{} calls {name}", fmu.name);
+        }
+    }
+}
+
 fn needed_libraries(data: &[u8]) -> Vec<String> {
     let header = elf::FileHeader64::<Endianness>::parse(data).expect("an ELF file");
     let endian = header.endian().expect("a known byte order");

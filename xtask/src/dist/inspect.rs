@@ -34,6 +34,13 @@ const SYSTEM: [&str; 18] = [
     "/usr/lib/libiconv.2.dylib",
 ];
 
+/// Functions of C's mathematics that each platform rounds in its own way, without the `f` of single precision.
+const ROUNDED: [&str; 27] = [
+    "sin", "cos", "sincos", "tan", "asin", "acos", "atan", "atan2", "sinh", "cosh", "tanh",
+    "asinh", "acosh", "atanh", "exp", "exp2", "exp10", "expm1", "log", "log2", "log10", "log1p",
+    "pow", "cbrt", "hypot", "tgamma", "lgamma",
+];
+
 /// What was read.
 #[derive(Debug)]
 pub struct Report {
@@ -60,12 +67,15 @@ pub fn inspect(bytes: &[u8], platform: &Platform, strict: bool) -> Result<Report
         })
         .collect();
     exactly_the_standard_s(&offered)?;
+    let imports = file.imports().map_err(|cause| cause.to_string())?;
+    let called = imports
+        .iter()
+        .map(|import| String::from_utf8_lossy(import.name()));
+    no_mathematics(called)?;
     let report = match &file {
         object::File::Elf64(_) => elf_needs(bytes).map_err(|cause| cause.to_string())?,
         _ => Report {
-            needs: file
-                .imports()
-                .map_err(|cause| cause.to_string())?
+            needs: imports
                 .iter()
                 .map(|import| String::from_utf8_lossy(import.library()).into_owned())
                 .filter(|name| !name.is_empty())
@@ -95,6 +105,22 @@ fn exactly_the_standard_s(offered: &BTreeSet<String>) -> Result<(), String> {
         )),
         None => Ok(()),
     }
+}
+
+/// The same inputs give the same bits everywhere because no function is called that a platform rounds in its own way. Where
+/// the C library is linked in, this sees nothing: it is the same source that is looked at on the other platforms.
+fn no_mathematics(called: impl Iterator<Item = impl AsRef<str>>) -> Result<(), String> {
+    for name in called {
+        let name = name.as_ref();
+        let plain = name.trim_start_matches('_');
+        let double = plain.strip_suffix('f').unwrap_or(plain);
+        if ROUNDED.contains(&plain) || ROUNDED.contains(&double) {
+            return Err(format!(
+                "calls {name} of the platform's C library, which each rounds in its own way: expected the libm crate"
+            ));
+        }
+    }
+    Ok(())
 }
 
 fn only_the_system_s(report: &Report) -> Result<(), String> {
@@ -171,6 +197,21 @@ mod tests {
             needs: needs.iter().map(|&name| name.to_owned()).collect(),
             glibc,
         }
+    }
+
+    #[test]
+    fn the_platform_s_mathematics_is_named_and_what_is_exact_may_be_called() {
+        for name in ["sin", "_sin", "expf", "__sincosf", "hypot"] {
+            let found = no_mathematics([name].into_iter());
+            assert!(
+                found.is_err_and(|text| text.contains(&format!("calls {name} "))),
+                "{name}"
+            );
+        }
+        let exact = [
+            "memcpy", "fmod", "sqrt", "floor", "printf", "_exit", "signal",
+        ];
+        assert_eq!(no_mathematics(exact.into_iter()), Ok(()));
     }
 
     #[test]
