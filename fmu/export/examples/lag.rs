@@ -126,7 +126,7 @@ impl Model for Lag {
     fn step(&mut self, step: Step, log: &mut Log<'_>) -> Result<(), Refusal> {
         assert!(!self.panic, "provoked with 100% certainty");
         let share = match self.method {
-            1 => -(-step.h / self.tau).exp_m1(),
+            1 => -libm::expm1(-step.h / self.tau),
             _ => step.h / (self.tau + step.h),
         };
         self.y += share * (self.gain * self.u - self.y);
