@@ -115,7 +115,8 @@ fn cargo_home() -> PathBuf {
     }
 }
 
-fn sysroot() -> Option<PathBuf> {
+/// Where the compiler of this machine and its library lie.
+pub fn sysroot() -> Option<PathBuf> {
     let rustc = std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into());
     answer(&mut program(rustc, ["--print", "sysroot"])).map(PathBuf::from)
 }

@@ -106,19 +106,7 @@ impl Host {
         std::fs::write(&file, table).map_err(at(&file))?;
         let mut command = self.command(tools);
         command.arg(&library.path).arg(&file);
-        let output = command.output().map_err(at(&self.executable))?;
-        let text = String::from_utf8_lossy(&output.stdout).into_owned();
-        // The last line: a program that an emulator loses half way must not pass.
-        if output.status.success() && text.ends_with("end\n") {
-            return Ok(text);
-        }
-        let broken = text.lines().find(|line| line.starts_with("broken"));
-        Err(Failure::Found(format!(
-            "the host failed on {}: {} {}",
-            library.path.display(),
-            broken.unwrap_or_default(),
-            String::from_utf8_lossy(&output.stderr).trim()
-        )))
+        printed(&mut command, &library.path)
     }
 
     fn command(&self, tools: &Toolchains) -> Command {
@@ -128,6 +116,27 @@ impl Host {
             _ => program::<&Path>(&self.executable, []),
         }
     }
+}
+
+/// What a C program of `tests/host` prints when it runs to its end.
+///
+/// # Errors
+/// When it does not, or says that `subject` breaks a promise that needs no other platform to be seen.
+pub fn printed(command: &mut Command, subject: &Path) -> Outcome<String> {
+    let program = PathBuf::from(command.get_program());
+    let output = command.output().map_err(at(&program))?;
+    let text = String::from_utf8_lossy(&output.stdout).into_owned();
+    // The last line: a program that an emulator loses half way must not pass.
+    if output.status.success() && text.ends_with("end\n") {
+        return Ok(text);
+    }
+    let broken = text.lines().find(|line| line.starts_with("broken"));
+    Err(Failure::Found(format!(
+        "the C program failed on {}: {} {}",
+        subject.display(),
+        broken.unwrap_or_default(),
+        String::from_utf8_lossy(&output.stderr).trim()
+    )))
 }
 
 /// Compares what two platforms printed.

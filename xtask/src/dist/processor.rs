@@ -7,10 +7,10 @@
 use super::compile;
 use super::debian::quietly;
 use super::firmware::{TARGET, linker};
-use super::toolchain::{Toolchains, with_libraries, with_zig};
+use super::host::{Texts, compare, printed};
+use super::toolchain::{Toolchains, limited, with_libraries, with_zig};
 use crate::law::{self, PRECISIONS, Precision};
 use crate::process::{Failure, Outcome, at, program, root};
-use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -26,20 +26,19 @@ pub fn run(tools: &Toolchains) -> Outcome<Result<String, String>> {
         (Ok(zig), Ok(binutils), Ok(qemu)) => (zig, binutils, qemu),
         (Err(reason), ..) | (_, Err(reason), _) | (.., Err(reason)) => return Ok(Err(reason)),
     };
-    let mut lines = 0;
+    let (mut here, mut there) = (Texts::new(), Texts::new());
     for precision in &PRECISIONS {
-        let here = text(&mut program::<&Path>(on_this_machine(precision)?, []))?;
+        let executable = on_this_machine(precision)?;
+        let text = printed(&mut program::<&Path>(&executable, []), &executable)?;
+        here.insert(precision.folder, text);
         let image = on_the_microcontroller(precision, &zig, &binutils)?;
-        let emulator = qemu.join("usr/bin/qemu-arm-static");
+        let mut emulated = limited(qemu.join("usr/bin/qemu-arm-static"));
         // A processor with the Cortex-M4F's floating-point unit, and no more of it in use.
-        let arguments = [
-            OsStr::new("-cpu"),
-            OsStr::new("cortex-a15"),
-            image.as_os_str(),
-        ];
-        let there = text(&mut program(emulator, arguments))?;
-        lines += same(&here, &there, precision.folder)?;
+        emulated.args(["-cpu", "cortex-a15"]).arg(&image);
+        there.insert(precision.folder, printed(&mut emulated, &image)?);
     }
+    let lines = compare(&here, &there)
+        .map_err(|what| Failure::Found(format!("the law on {TARGET} differs: {what}")))?;
     Ok(Ok(format!("run, {lines} lines equal bit for bit")))
 }
 
@@ -97,49 +96,4 @@ fn folder() -> Outcome<PathBuf> {
 
 fn compiled(command: &mut Command) -> Outcome {
     quietly(command).map_err(|_| Failure::Found("tests/host/law.c does not compile".to_owned()))
-}
-
-/// What the program prints, which must end as it should.
-fn text(command: &mut Command) -> Outcome<String> {
-    let name = PathBuf::from(command.get_program());
-    let output = command.output().map_err(at(&name))?;
-    let text = String::from_utf8_lossy(&output.stdout).into_owned();
-    if output.status.success() && text.ends_with("end\n") {
-        return Ok(text);
-    }
-    let broken = text.lines().find(|line| line.starts_with("broken"));
-    Err(Failure::Found(format!(
-        "the law's program failed under {}: {} {}",
-        name.display(),
-        broken.unwrap_or_default(),
-        String::from_utf8_lossy(&output.stderr).trim()
-    )))
-}
-
-/// How many lines are the same, when all are.
-fn same(here: &str, there: &str, precision: &str) -> Outcome<usize> {
-    let differs = here.lines().zip(there.lines()).position(|(a, b)| a != b);
-    match differs {
-        Some(line) => Err(Failure::Found(format!(
-            "the law in {precision} on {TARGET} differs from this machine's in line {}",
-            line + 1
-        ))),
-        None if here != there => Err(Failure::Found(format!(
-            "the law in {precision} on {TARGET} prints another number of lines than on this machine"
-        ))),
-        None => Ok(here.lines().count()),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn one_differing_digit_and_a_missing_line_are_found() {
-        assert!(same("a\nb\n", "a\nb\n", "f64").is_ok_and(|lines| lines == 2));
-        let differs = same("a\nb\n", "a\nc\n", "f32").unwrap_err().to_string();
-        assert!(differs.contains("f32") && differs.contains("line 2"));
-        assert!(same("a\nb\n", "a\n", "f64").is_err());
-    }
 }

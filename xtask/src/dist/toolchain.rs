@@ -2,6 +2,7 @@
 //! be had is a reason in words, not a failure.
 
 use super::debian::{Debian, quietly};
+use crate::build::sysroot;
 use crate::process::{Outcome, answer, at, program, root};
 use std::cell::OnceCell;
 use std::ffi::OsString;
@@ -89,9 +90,8 @@ impl Toolchains {
 
     /// LLVM's linker, beside the standard library of the compiler of this machine.
     pub fn lld(&self) -> Tool {
-        let rustc = std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into());
-        let sysroot = answer(&mut program(rustc, ["--print", "sysroot"])).unwrap_or_default();
-        let lld = Path::new(&sysroot).join("lib/rustlib/x86_64-unknown-linux-gnu/bin/rust-lld");
+        let sysroot = sysroot().ok_or("rustc does not say its sysroot")?;
+        let lld = sysroot.join("lib/rustlib/x86_64-unknown-linux-gnu/bin/rust-lld");
         if lld.exists() {
             Ok(lld)
         } else {
@@ -188,7 +188,7 @@ impl Toolchains {
 }
 
 /// An emulator, ended when it hangs: wine's first start takes a quarter of a minute, a run a few seconds.
-fn limited(emulator: PathBuf) -> Command {
+pub fn limited(emulator: PathBuf) -> Command {
     let mut command = program("timeout", ["600"]);
     command.arg(emulator);
     command
