@@ -1,10 +1,10 @@
-//! The test model, `fmu/export/examples/lag.rs`: a bare library without XML.
+//! The test model, `modelDescription/export/examples/lag.rs`: a bare library without XML.
 
 use crate::fmu::{SUFFIX, directory, existing};
 use crate::{Fmu, Instance, Kind, Library, Setup, Variable};
 use std::sync::Arc;
 
-/// Rows of `fmu/export/examples/lag.rs`, in their order. A row's value reference is 256 times its position.
+/// Rows of `modelDescription/export/examples/lag.rs`, in their order. A row's value reference is 256 times its position.
 const LAG: [(&str, Kind, &str, &str); 9] = [
     ("u", Kind::Real {}, "input", "continuous"),
     ("y", Kind::Real {}, "output", "continuous"),

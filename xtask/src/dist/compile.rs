@@ -11,7 +11,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// The test model of `fmu/export/examples/lag.rs`: it can panic when told to.
+/// The test model of `modelDescription/export/examples/lag.rs`: it can panic when told to.
 pub const LAG: &str = "lag";
 
 /// What was built, and how.
