@@ -14,7 +14,12 @@ pub enum Error {
     Experiment(Experiment),
     /// More rows than value references.
     Rows(usize),
-    /// The row's length is 0, above 256, or not that of the field it borrows.
+    /// Some rows bear numbers and others do not, or the numbers do not ascend.
+    Numbers {
+        /// The first row out of order.
+        row: &'static str,
+    },
+    /// The row's length is 0, above 256, or not that of its field.
     Length {
         /// Row.
         row: &'static str,
@@ -107,6 +112,12 @@ impl fmt::Display for Error {
                 )
             }
             Self::Rows(rows) => write!(f, "{rows} rows: expected at most {}", provenance::ROW),
+            Self::Numbers { row } => {
+                write!(
+                    f,
+                    "{row}: expected a number above that of the row before it, or none on any row"
+                )
+            }
             Self::Length {
                 row,
                 declared,

@@ -42,9 +42,9 @@ impl Interface {
     /// The first rule that a row breaks, with the row's name.
     pub fn read<D: Declare>(description: &Description<D>) -> Result<Self, Error> {
         check_frame(description)?;
-        let mut start = D::default();
+        let start = D::default();
         for variable in description.variables {
-            check_row(description.stepping, variable, &mut start)?;
+            check_row(description.stepping, variable)?;
         }
         let mut scalars = Vec::new();
         for scalar in description.scalars() {
@@ -53,7 +53,7 @@ impl Interface {
                 reference: scalar.reference(),
                 causality: scalar.variable.causality,
                 variability: scalar.variable.variability,
-                kind: kind(&scalar, &mut start),
+                kind: kind(&scalar, &start),
                 initially_from: known(description, scalar.variable)?,
                 about: scalar.variable.about,
             });
@@ -117,30 +117,30 @@ fn built_from(of: Provenance) -> Entry {
     }
 }
 
-fn kind<D>(scalar: &Scalar<D>, start: &mut D) -> Kind {
+fn kind<D>(scalar: &Scalar<D>, start: &D) -> Kind {
     let i = scalar.element;
-    match scalar.variable.access {
-        Access::Real { unit, min, max, at } => Kind::Real {
-            unit,
-            start: at(start)[i],
-            min: (min != f64::NEG_INFINITY).then_some(min),
-            max: (max != f64::INFINITY).then_some(max),
+    match &scalar.variable.access {
+        Access::Real { unit, range, at } => Kind::Real {
+            unit: *unit,
+            start: at.get(start, i),
+            min: (range.low != f64::NEG_INFINITY).then_some(range.low),
+            max: (range.high != f64::INFINITY).then_some(range.high),
         },
         Access::Integer { min, max, at } => Kind::Integer {
-            start: at(start)[i],
-            min: (min != i32::MIN).then_some(min),
-            max: (max != i32::MAX).then_some(max),
+            start: at.get(start, i),
+            min: (*min != i32::MIN).then_some(*min),
+            max: (*max != i32::MAX).then_some(*max),
         },
         Access::Boolean { at } => Kind::Boolean {
-            start: at(start)[i],
+            start: at.get(start, i),
         },
         Access::String { at } => Kind::String {
-            start: at(start)[i].clone(),
+            start: at.get(start, i),
         },
         Access::Enumeration { of, declared, at } => Kind::Enumeration {
             of,
-            declared,
-            start: at(start)[i],
+            declared: *declared,
+            start: at.get(start, i),
         },
     }
 }

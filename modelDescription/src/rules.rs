@@ -4,8 +4,8 @@ use crate::entry::{Entry, Kind};
 use crate::error::Error;
 use crate::name::{is_identifier, is_structured};
 use declaration::{
-    Access, Causality, Description, Enumeration, Experiment, Stepping, Unit, Variability,
-    description::SCALARS_PER_ROW, provenance,
+    Access, Causality, Description, Enumeration, Experiment, Stepping, Unit, Variability, Variable,
+    description::SCALARS_PER_ROW, provenance, variable::IN_ORDER,
 };
 use std::collections::BTreeMap;
 
@@ -32,21 +32,27 @@ pub(crate) fn check_frame<D>(description: &Description<D>) -> Result<(), Error> 
     if description.variables.len() > provenance::ROW as usize {
         return Err(Error::Rows(description.variables.len()));
     }
-    Ok(())
+    // A row without a number has the largest one there is.
+    let in_order = |pair: &[Variable<D>]| match (pair[0].number, pair[1].number) {
+        (IN_ORDER, IN_ORDER) => true,
+        (before, after) => before < after && after < provenance::ROW,
+    };
+    match description
+        .variables
+        .windows(2)
+        .find(|pair| !in_order(pair))
+    {
+        Some(pair) => Err(Error::Numbers { row: pair[1].name }),
+        None => Ok(()),
+    }
 }
 
 pub(crate) fn check_row<D>(
     stepping: Stepping,
     row: &declaration::Variable<D>,
-    start: &mut D,
 ) -> Result<(), Error> {
     let name = row.name;
-    let held = match row.access {
-        Access::Real { at, .. } => at(start).len(),
-        Access::Integer { at, .. } | Access::Enumeration { at, .. } => at(start).len(),
-        Access::Boolean { at } => at(start).len(),
-        Access::String { at } => at(start).len(),
-    };
+    let held = row.access.len();
     if row.len == 0 || row.len > SCALARS_PER_ROW as usize || row.len != held {
         return Err(Error::Length {
             row: name,
@@ -122,7 +128,7 @@ pub(crate) fn known<D>(
                         scalar.variable.causality,
                         Causality::Input | Causality::Parameter
                     );
-                    (given && scalar.variable.name == name).then_some(position)
+                    (given && scalar.variable.full_name() == name).then_some(position)
                 }),
         );
         if !calculated || positions.len() == before {

@@ -333,7 +333,7 @@ fn the_ledger_knows_of_a_delayed_force_and_the_force_is_the_same() {
 
 #[test]
 fn start_values_lie_within_their_bounds_and_names_are_unique() {
-    let mut start = TestbedController::default();
+    let start = TestbedController::default();
     let mut names = std::collections::HashSet::new();
     for scalar in TestbedController::DESCRIPTION.scalars() {
         assert!(
@@ -347,16 +347,16 @@ fn start_values_lie_within_their_bounds_and_names_are_unique() {
             scalar.name()
         );
         match scalar.variable.access {
-            Access::Real { min, max, at, .. } => {
-                let value = at(&mut start)[scalar.element];
-                assert!(min <= value && value <= max, "{} = {value}", scalar.name());
+            Access::Real { range, at, .. } => {
+                let value = at.get(&start, scalar.element);
+                assert!(range.contains(value), "{} = {value}", scalar.name());
             }
             Access::Integer { min, max, at } => {
-                let value = at(&mut start)[scalar.element];
+                let value = at.get(&start, scalar.element);
                 assert!(min <= value && value <= max, "{} = {value}", scalar.name());
             }
             Access::Enumeration { of, at, .. } => {
-                let value = at(&mut start)[scalar.element];
+                let value = at.get(&start, scalar.element);
                 assert!(
                     of.items.iter().any(|item| item.value == value),
                     "{} = {value}",

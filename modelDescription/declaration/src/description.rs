@@ -1,7 +1,7 @@
 //! The model as a whole.
 
-use crate::{Access, Variable, provenance};
-use core::fmt::Write as _;
+use crate::Variable;
+use crate::variable::IN_ORDER;
 
 /// How the model advances; decides the variability that its inputs and outputs declare and the step size advice.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -35,7 +35,8 @@ pub struct Description<M: 'static> {
     pub stepping: Stepping,
     /// Default experiment.
     pub experiment: Experiment,
-    /// The rows. Append, never reorder: a row's position is its value reference.
+    /// The rows, in the order of the XML. Each bears a number, or none does: then its position is one. The number decides
+    /// the value reference, so it stays when others come: append, never reorder.
     pub variables: &'static [Variable<M>],
 }
 
@@ -52,29 +53,41 @@ pub const SCALARS_PER_ROW: u32 = 256;
 pub struct Scalar<M: 'static> {
     /// The row.
     pub variable: &'static Variable<M>,
-    /// Position of the row, from 0.
-    pub row: usize,
+    /// Number of the row.
+    pub row: u32,
     /// Element in the row, from 0.
     pub element: usize,
 }
 
 impl<M> Scalar<M> {
     /// Name, with `[i]` replaced by the element's number, from 1.
+    #[cfg(feature = "std")]
     pub fn name(&self) -> String {
         self.variable.element_name(self.element)
     }
 
     /// Value reference.
     pub fn reference(&self) -> u32 {
-        self.row as u32 * SCALARS_PER_ROW + self.element as u32
+        self.row * SCALARS_PER_ROW + self.element as u32
     }
 }
 
 impl<M> Description<M> {
     /// Row and element of a value reference; `None` when nothing stands there.
+    #[inline]
     pub fn find(&self, reference: u32) -> Option<(&'static Variable<M>, usize)> {
-        let variable = self.variables.get((reference / SCALARS_PER_ROW) as usize)?;
+        let number = reference / SCALARS_PER_ROW;
         let element = (reference % SCALARS_PER_ROW) as usize;
+        // Without gaps in the numbers a row stands at its own.
+        let variable = match self.variables.get(number as usize) {
+            Some(variable) if [number, IN_ORDER].contains(&variable.number) => variable,
+            _ => {
+                let found = self
+                    .variables
+                    .binary_search_by_key(&number, |row| row.number);
+                self.variables.get(found.ok()?)?
+            }
+        };
         (element < variable.len).then_some((variable, element))
     }
 
@@ -82,64 +95,18 @@ impl<M> Description<M> {
     pub fn scalars(&self) -> impl Iterator<Item = Scalar<M>> + use<M> {
         self.variables
             .iter()
-            .enumerate()
-            .flat_map(|(row, variable)| {
+            .zip(0..)
+            .flat_map(|(variable, position)| {
+                let row = if variable.number == IN_ORDER {
+                    position
+                } else {
+                    variable.number
+                };
                 (0..variable.len).map(move |element| Scalar {
                     variable,
                     row,
                     element,
                 })
             })
-    }
-}
-
-impl<M: Declare> Description<M> {
-    /// The guid: a hash (UUID version 5) over everything an importer can rely on: names, value references, types,
-    /// units, bounds, start values, causality, variability. Descriptions are left out.
-    pub fn guid(&self) -> String {
-        let mut start = M::default();
-        let mut text = format!("{} {:?} {:?}\n", self.name, self.stepping, self.experiment);
-        for scalar in self.scalars() {
-            let (v, i) = (scalar.variable, scalar.element);
-            let kind = match v.access {
-                Access::Real { unit, min, max, at } => {
-                    format!("{unit:?} {min} {max} {:?}", at(&mut start)[i])
-                }
-                Access::Integer { min, max, at } => {
-                    format!("Integer {min} {max} {}", at(&mut start)[i])
-                }
-                Access::Boolean { at } => format!("Boolean {}", at(&mut start)[i]),
-                Access::String { at } => format!("String {:?}", at(&mut start)[i]),
-                Access::Enumeration { of, declared, at } => {
-                    let items: Vec<_> = of
-                        .items
-                        .iter()
-                        .map(|item| (item.value, item.name))
-                        .collect();
-                    format!("{declared:?} {} {items:?} {}", of.name, at(&mut start)[i])
-                }
-            };
-            let nan = if v.may_be_nan { " or NaN" } else { "" };
-            let _ = writeln!(
-                text,
-                "{} {} {:?} {:?} {:?} {kind}{nan}",
-                scalar.reference(),
-                scalar.name(),
-                v.causality,
-                v.variability,
-                v.initially_from
-            );
-        }
-        for one in provenance::ALL {
-            let _ = writeln!(
-                text,
-                "{} {} fixed local String",
-                one.reference(),
-                one.name()
-            );
-        }
-        uuid::Uuid::new_v5(&uuid::Uuid::NAMESPACE_OID, text.as_bytes())
-            .braced()
-            .to_string()
     }
 }

@@ -7,20 +7,26 @@ macro_rules! row_name {
     ($first:ident $(. $rest:ident)*) => { concat!(stringify!($first) $(, ".", stringify!($rest))*) };
 }
 
+/// The place of a field path in `Self`.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! row_place {
+    ($($field:ident).+) => {
+        $crate::place::of_field(::core::mem::offset_of!(Self, $($field).+), |m: &Self| &m.$($field).+)
+    };
+    ($($field:ident).+ [$len:literal]) => {
+        $crate::place::of_field::<Self, [_; $len]>(::core::mem::offset_of!(Self, $($field).+), |m: &Self| &m.$($field).+)
+    };
+}
+
 /// A Real: `real!(energy.H, unit::JOULE)`, a vector `real!(tau_a[3], unit::NEWTON_METRE)`, or with a name of its own
 /// `real!("wall.q" => wall_q, unit::METRE)`, `real!("segment[i].t_on" => t_on[16], unit::SECOND)`.
 #[macro_export]
 macro_rules! real {
     ($name:literal => $($place:tt)*) => { $crate::real!(@ $name; $($place)*) };
-    (@ $name:expr; $($field:ident).+ [$len:literal], $unit:expr) => {
-        $crate::Variable::new($name, $len, $crate::Access::Real {
-            unit: $unit, min: f64::NEG_INFINITY, max: f64::INFINITY, at: |m: &mut Self| &mut m.$($field).+[..],
-        })
-    };
-    (@ $name:expr; $($field:ident).+, $unit:expr) => {
-        $crate::Variable::new($name, 1, $crate::Access::Real {
-            unit: $unit, min: f64::NEG_INFINITY, max: f64::INFINITY,
-            at: |m: &mut Self| ::core::slice::from_mut(&mut m.$($field).+),
+    (@ $name:expr; $($field:ident).+ $([$len:literal])?, $unit:expr) => {
+        $crate::Variable::new($name, $crate::Access::Real {
+            unit: $unit, range: $crate::range::FINITE, at: $crate::row_place!($($field).+ $([$len])?),
         })
     };
     ($($field:ident).+ [$len:literal], $unit:expr) => {
@@ -33,19 +39,14 @@ macro_rules! real {
 /// `integer!("segment[i].axis" => segment.axis[16])`.
 #[macro_export]
 macro_rules! integer {
-    ($name:literal => $($field:ident).+ [$len:literal]) => {
-        $crate::Variable::new($name, $len, $crate::Access::Integer {
-            min: i32::MIN, max: i32::MAX, at: |m: &mut Self| &mut m.$($field).+[..],
-        })
-    };
-    ($name:literal => $($field:ident).+) => {
-        $crate::Variable::new($name, 1, $crate::Access::Integer {
-            min: i32::MIN, max: i32::MAX, at: |m: &mut Self| ::core::slice::from_mut(&mut m.$($field).+),
+    ($name:literal => $($field:ident).+ $([$len:literal])?) => {
+        $crate::Variable::new($name, $crate::Access::Integer {
+            min: i32::MIN, max: i32::MAX, at: $crate::row_place!($($field).+ $([$len])?),
         })
     };
     ($($field:ident).+) => {
-        $crate::Variable::new($crate::row_name!($($field).+), 1, $crate::Access::Integer {
-            min: i32::MIN, max: i32::MAX, at: |m: &mut Self| ::core::slice::from_mut(&mut m.$($field).+),
+        $crate::Variable::new($crate::row_name!($($field).+), $crate::Access::Integer {
+            min: i32::MIN, max: i32::MAX, at: $crate::row_place!($($field).+),
         })
     };
 }
@@ -54,14 +55,10 @@ macro_rules! integer {
 #[macro_export]
 macro_rules! boolean {
     ($name:literal => $($field:ident).+) => {
-        $crate::Variable::new($name, 1, $crate::Access::Boolean {
-            at: |m: &mut Self| ::core::slice::from_mut(&mut m.$($field).+),
-        })
+        $crate::Variable::new($name, $crate::Access::Boolean { at: $crate::row_place!($($field).+) })
     };
     ($($field:ident).+) => {
-        $crate::Variable::new($crate::row_name!($($field).+), 1, $crate::Access::Boolean {
-            at: |m: &mut Self| ::core::slice::from_mut(&mut m.$($field).+),
-        })
+        $crate::Variable::new($crate::row_name!($($field).+), $crate::Access::Boolean { at: $crate::row_place!($($field).+) })
     };
 }
 
@@ -69,9 +66,7 @@ macro_rules! boolean {
 #[macro_export]
 macro_rules! string {
     ($($field:ident).+) => {
-        $crate::Variable::new($crate::row_name!($($field).+), 1, $crate::Access::String {
-            at: |m: &mut Self| ::core::slice::from_mut(&mut m.$($field).+),
-        })
+        $crate::Variable::new($crate::row_name!($($field).+), $crate::Access::String { at: $crate::row_place!($($field).+) })
     };
 }
 
@@ -80,14 +75,14 @@ macro_rules! string {
 /// `enumeration!("segment[i].kind" => segment.kind[16], &KIND)`.
 #[macro_export]
 macro_rules! enumeration {
-    ($name:literal => $($field:ident).+ [$len:literal], $of:expr) => {
-        $crate::Variable::new($name, $len, $crate::Access::Enumeration {
-            of: $of, declared: $crate::Declared::Integer, at: |m: &mut Self| &mut m.$($field).+[..],
+    ($name:literal => $($field:ident).+ $([$len:literal])?, $of:expr) => {
+        $crate::Variable::new($name, $crate::Access::Enumeration {
+            of: $of, declared: $crate::Declared::Integer, at: $crate::row_place!($($field).+ $([$len])?),
         })
     };
     ($($field:ident).+, $of:expr) => {
-        $crate::Variable::new($crate::row_name!($($field).+), 1, $crate::Access::Enumeration {
-            of: $of, declared: $crate::Declared::Integer, at: |m: &mut Self| ::core::slice::from_mut(&mut m.$($field).+),
+        $crate::Variable::new($crate::row_name!($($field).+), $crate::Access::Enumeration {
+            of: $of, declared: $crate::Declared::Integer, at: $crate::row_place!($($field).+),
         })
     };
 }

@@ -1,6 +1,8 @@
 //! The row: one variable of a model, or one vector of them.
 
-use crate::Unit;
+use crate::place::Place;
+use crate::range::Range;
+use crate::{Unit, Value};
 
 /// Who computes the variable (FMI 2.0, section 2.2.7).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -63,19 +65,16 @@ pub enum Declared {
     Integer,
 }
 
-/// Type of a variable and where it lives in the model `M`. A function returns the whole vector; a scalar is a vector of
-/// length one.
+/// Type of a variable and where it lives in the model `M`.
 pub enum Access<M> {
     /// fmi2Real
     Real {
         /// Unit of the value.
         unit: Unit,
-        /// Smallest accepted value (−∞: none).
-        min: f64,
-        /// Largest accepted value (∞: none).
-        max: f64,
-        /// Borrows the values.
-        at: fn(&mut M) -> &mut [f64],
+        /// What it may be.
+        range: Range,
+        /// Where the values are.
+        at: Place<M, f64>,
     },
     /// fmi2Integer
     Integer {
@@ -83,18 +82,19 @@ pub enum Access<M> {
         min: i32,
         /// Largest accepted value (`i32::MAX`: none).
         max: i32,
-        /// Borrows the values.
-        at: fn(&mut M) -> &mut [i32],
+        /// Where the values are.
+        at: Place<M, i32>,
     },
     /// fmi2Boolean
     Boolean {
-        /// Borrows the values.
-        at: fn(&mut M) -> &mut [bool],
+        /// Where the values are.
+        at: Place<M, bool>,
     },
     /// fmi2String
+    #[cfg(feature = "std")]
     String {
-        /// Borrows the values.
-        at: fn(&mut M) -> &mut [String],
+        /// Where the values are.
+        at: Place<M, String>,
     },
     /// fmi2Integer restricted to the items of an enumeration
     Enumeration {
@@ -102,8 +102,8 @@ pub enum Access<M> {
         of: &'static Enumeration,
         /// How the XML declares it.
         declared: Declared,
-        /// Borrows the values.
-        at: fn(&mut M) -> &mut [i32],
+        /// Where the values are.
+        at: Place<M, i32>,
     },
 }
 
@@ -114,8 +114,26 @@ impl<M> Clone for Access<M> {
 }
 impl<M> Copy for Access<M> {}
 
+impl<M> Access<M> {
+    /// How many values there are.
+    #[allow(clippy::len_without_is_empty, reason = "a row has a value")]
+    pub const fn len(&self) -> usize {
+        match self {
+            Self::Real { at, .. } => at.len(),
+            Self::Integer { at, .. } | Self::Enumeration { at, .. } => at.len(),
+            Self::Boolean { at } => at.len(),
+            #[cfg(feature = "std")]
+            Self::String { at } => at.len(),
+        }
+    }
+}
+
 /// One row: a scalar (`len == 1`), or a vector whose name contains `[i]` and which expands to `[1]` … `[len]`.
 pub struct Variable<M: 'static> {
+    /// Number of the row, which decides its value reference; [`IN_ORDER`]: its position in the description.
+    pub number: u32,
+    /// What comes before the name: that of the part that it belongs to, with its dot; empty for most.
+    pub prefix: &'static str,
     /// Name, the paper's symbol where there is one.
     pub name: &'static str,
     /// Number of scalars.
@@ -142,10 +160,20 @@ impl<M> Clone for Variable<M> {
 }
 impl<M> Copy for Variable<M> {}
 
+/// The number of a row that bears none: its position counts.
+pub const IN_ORDER: u32 = u32::MAX;
+
 impl<M> Variable<M> {
+    /// No row: what a list is filled with before its rows are written.
+    #[doc(hidden)]
+    pub const NOTHING: Self = Self::new("", Access::Boolean { at: Place::NOTHING });
+
     /// A row with its place; the causality is said by the next call.
-    pub const fn new(name: &'static str, len: usize, access: Access<M>) -> Self {
+    pub const fn new(name: &'static str, access: Access<M>) -> Self {
+        let len = access.len();
         Self {
+            number: IN_ORDER,
+            prefix: "",
             name,
             len,
             access,
@@ -155,6 +183,12 @@ impl<M> Variable<M> {
             may_be_nan: false,
             about: "",
         }
+    }
+
+    /// With a number, which must stay when others come: it decides the value reference.
+    pub const fn numbered(mut self, number: u32) -> Self {
+        self.number = number;
+        self
     }
 
     const fn as_(mut self, causality: Causality, variability: Variability) -> Self {
@@ -214,21 +248,24 @@ impl<M> Variable<M> {
         self
     }
 
+    /// What a Real may be; a Set outside of it is refused.
+    ///
+    /// # Panics
+    /// When the row is not a Real (at compile time: rows are constants).
+    pub const fn range(mut self, range: Range) -> Self {
+        self.access = match self.access {
+            Access::Real { unit, at, .. } => Access::Real { unit, range, at },
+            _ => panic!("a range is for Real rows"),
+        };
+        self
+    }
+
     /// Bounds of a Real, both included; a Set outside of them is refused.
     ///
     /// # Panics
     /// When the row is not a Real (at compile time: rows are constants).
-    pub const fn within(mut self, low: f64, high: f64) -> Self {
-        self.access = match self.access {
-            Access::Real { unit, at, .. } => Access::Real {
-                unit,
-                min: low,
-                max: high,
-                at,
-            },
-            _ => panic!("within() is for Real rows"),
-        };
-        self
+    pub const fn within(self, low: f64, high: f64) -> Self {
+        self.range(Range::new(low, high, "a finite value within its bounds"))
     }
 
     /// Lower bound of a Real, included.
@@ -252,9 +289,27 @@ impl<M> Variable<M> {
         self
     }
 
+    /// The name with its prefix; `[i]` stands for the element.
+    #[cfg(feature = "std")]
+    pub fn full_name(&self) -> String {
+        [self.prefix, self.name].concat()
+    }
+
     /// Name of one element, counted from 0 here and from 1 in the name: `[i]` becomes `[1]`, `[2]`, …
+    #[cfg(feature = "std")]
     pub fn element_name(&self, element: usize) -> String {
-        self.name.replace("[i]", &format!("[{}]", element + 1))
+        self.full_name()
+            .replace("[i]", &format!("[{}]", element + 1))
+    }
+
+    /// The name without the `[i]` at its end.
+    pub fn base_name(&self) -> &'static str {
+        self.name.strip_suffix("[i]").unwrap_or(self.name)
+    }
+
+    /// The value of element `i`, from 0, if the row is of this type.
+    pub fn value<V: Of<M>>(&self, model: &M, i: usize) -> Option<V> {
+        V::of(&self.access).map(|at| at.get(model, i))
     }
 
     /// Declares an enumeration as such instead of as an Integer.
@@ -287,5 +342,48 @@ impl<M> Variable<M> {
             self.causality,
             Causality::Output | Causality::CalculatedParameter | Causality::Local
         )
+    }
+}
+
+/// A type of value, and where a row of that type has it.
+pub trait Of<M>: Value {
+    /// The place, if the row is of this type. An enumeration is an Integer.
+    fn of(access: &Access<M>) -> Option<&Place<M, Self>>;
+}
+
+impl<M> Of<M> for f64 {
+    fn of(access: &Access<M>) -> Option<&Place<M, Self>> {
+        match access {
+            Access::Real { at, .. } => Some(at),
+            _ => None,
+        }
+    }
+}
+
+impl<M> Of<M> for i32 {
+    fn of(access: &Access<M>) -> Option<&Place<M, Self>> {
+        match access {
+            Access::Integer { at, .. } | Access::Enumeration { at, .. } => Some(at),
+            _ => None,
+        }
+    }
+}
+
+impl<M> Of<M> for bool {
+    fn of(access: &Access<M>) -> Option<&Place<M, Self>> {
+        match access {
+            Access::Boolean { at } => Some(at),
+            _ => None,
+        }
+    }
+}
+
+#[cfg(feature = "std")]
+impl<M> Of<M> for String {
+    fn of(access: &Access<M>) -> Option<&Place<M, Self>> {
+        match access {
+            Access::String { at } => Some(at),
+            _ => None,
+        }
     }
 }

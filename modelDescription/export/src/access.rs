@@ -6,15 +6,15 @@ use crate::instance::{Instance, refused};
 use crate::legality::Phase;
 use crate::model::{Model, Refusal};
 use crate::provenance::text;
-use declaration::{Access, Causality, Provenance, Variable};
+use declaration::{Access, Causality, Of, Place, Provenance, Variable};
 
-/// A type of the interface: how to find it in a row and what a row demands of a value.
-pub trait Value: Sized + Clone + 'static {
+/// A type of the interface: its name, and what a row demands of a value.
+pub trait Value: declaration::Value {
     /// Name in the standard.
     const TYPE: &'static str;
 
-    /// The row's values, if the row is of this type.
-    fn at<M>(access: &Access<M>) -> Option<fn(&mut M) -> &mut [Self]>;
+    /// Where the row's values are, if the row is of this type.
+    fn at<M>(access: &Access<M>) -> Option<&Place<M, Self>>;
 
     /// What is wrong with the value, if anything.
     fn objection<M>(&self, row: &Variable<M>) -> Option<String>;
@@ -28,25 +28,23 @@ pub trait Value: Sized + Clone + 'static {
 impl Value for f64 {
     const TYPE: &'static str = "Real";
 
-    fn at<M>(access: &Access<M>) -> Option<fn(&mut M) -> &mut [Self]> {
-        if let Access::Real { at, .. } = access {
-            Some(*at)
-        } else {
-            None
-        }
+    fn at<M>(access: &Access<M>) -> Option<&Place<M, Self>> {
+        Self::of(access)
     }
 
     fn objection<M>(&self, row: &Variable<M>) -> Option<String> {
-        match &row.access {
-            _ if row.may_be_nan && !self.is_finite() => None,
-            Access::Real { unit, .. } if !self.is_finite() => {
-                Some(format!("= {self} {}, expected a finite value", unit.name))
-            }
-            Access::Real { unit, min, max, .. } if self < min || self > max => Some(format!(
-                "= {self} {}, expected a value from {min} to {max}",
-                unit.name
-            )),
-            _ => None,
+        let Access::Real { unit, range, .. } = &row.access else {
+            return None;
+        };
+        if range.contains(*self) || (row.may_be_nan && !self.is_finite()) {
+            None
+        } else if self.is_finite() {
+            Some(format!(
+                "= {self} {}, expected a value from {} to {}",
+                unit.name, range.low, range.high
+            ))
+        } else {
+            Some(format!("= {self} {}, expected a finite value", unit.name))
         }
     }
 }
@@ -54,11 +52,8 @@ impl Value for f64 {
 impl Value for i32 {
     const TYPE: &'static str = "Integer";
 
-    fn at<M>(access: &Access<M>) -> Option<fn(&mut M) -> &mut [Self]> {
-        match access {
-            Access::Integer { at, .. } | Access::Enumeration { at, .. } => Some(*at),
-            _ => None,
-        }
+    fn at<M>(access: &Access<M>) -> Option<&Place<M, Self>> {
+        Self::of(access)
     }
 
     fn objection<M>(&self, row: &Variable<M>) -> Option<String> {
@@ -86,12 +81,8 @@ impl Value for i32 {
 impl Value for bool {
     const TYPE: &'static str = "Boolean";
 
-    fn at<M>(access: &Access<M>) -> Option<fn(&mut M) -> &mut [Self]> {
-        if let Access::Boolean { at } = access {
-            Some(*at)
-        } else {
-            None
-        }
+    fn at<M>(access: &Access<M>) -> Option<&Place<M, Self>> {
+        Self::of(access)
     }
 
     fn objection<M>(&self, _: &Variable<M>) -> Option<String> {
@@ -102,12 +93,8 @@ impl Value for bool {
 impl Value for String {
     const TYPE: &'static str = "String";
 
-    fn at<M>(access: &Access<M>) -> Option<fn(&mut M) -> &mut [Self]> {
-        if let Access::String { at } = access {
-            Some(*at)
-        } else {
-            None
-        }
+    fn at<M>(access: &Access<M>) -> Option<&Place<M, Self>> {
+        Self::of(access)
     }
 
     fn objection<M>(&self, _: &Variable<M>) -> Option<String> {
@@ -124,18 +111,22 @@ impl Value for String {
 ///
 /// # Errors
 /// A [`Refusal`] that names the first parameter outside of its row's bounds, its value and what was expected.
-pub fn check_parameters<M: Model>(model: &mut M) -> Result<(), Refusal> {
-    fn first<M, V: Value>(values: &[V], row: &Variable<M>) -> Option<(usize, String)> {
-        let objections = values.iter().map(|value| value.objection(row));
+pub fn check_parameters<M: Model>(model: &M) -> Result<(), Refusal> {
+    fn first<M, V: Value>(
+        model: &M,
+        at: &Place<M, V>,
+        row: &Variable<M>,
+    ) -> Option<(usize, String)> {
+        let objections = at.values(model).map(|value| value.objection(row));
         objections.enumerate().find_map(|(i, o)| Some((i, o?)))
     }
     for row in M::DESCRIPTION.variables {
         if row.causality != Causality::Parameter {
             continue;
         }
-        let objection = match row.access {
-            Access::Real { at, .. } => first(at(model), row),
-            Access::Integer { at, .. } | Access::Enumeration { at, .. } => first(at(model), row),
+        let objection = match &row.access {
+            Access::Real { at, .. } => first(model, at, row),
+            Access::Integer { at, .. } | Access::Enumeration { at, .. } => first(model, at, row),
             Access::Boolean { .. } | Access::String { .. } => None,
         };
         if let Some((i, objection)) = objection {
@@ -149,46 +140,48 @@ pub fn check_parameters<M: Model>(model: &mut M) -> Result<(), Refusal> {
 const COMPUTED: &str = "is computed by the model: it cannot be set";
 
 /// Where one scalar of type `V` lives.
-struct Place<M: 'static, V> {
+struct Scalar<M: 'static, V: 'static> {
     variable: &'static Variable<M>,
     element: usize,
-    at: fn(&mut M) -> &mut [V],
+    at: &'static Place<M, V>,
 }
 
-fn place<M: Model, V: Value>(reference: ValueReference) -> Result<Place<M, V>, Failure> {
+#[inline]
+fn scalar<M: Model, V: Value>(reference: ValueReference) -> Result<Scalar<M, V>, Failure> {
     let Some((variable, element)) = M::DESCRIPTION.find(reference) else {
-        return refused(format!(
-            "value reference {reference} is not one of {}",
-            M::DESCRIPTION.name
-        ));
+        return unknown::<_, M>(reference);
     };
-    let Some(at) = V::at(&variable.access) else {
-        return another_type::<_, V>(&variable.element_name(element), reference);
-    };
-    Ok(Place {
-        variable,
-        element,
-        at,
-    })
+    match V::at(&variable.access) {
+        Some(at) => Ok(Scalar {
+            variable,
+            element,
+            at,
+        }),
+        None => another_type::<_, V>(&variable.element_name(element), reference),
+    }
 }
 
-/// What Get may read.
-enum Readable<M: 'static, V> {
-    /// What the library was built from.
-    Constant(V),
-    Variable(Place<M, V>),
-}
-
-fn readable<M: Model, V: Value>(reference: ValueReference) -> Result<Readable<M, V>, Failure> {
+/// The text of a variable that says what the library was built from; an error where `reference` is none of them.
+#[cold]
+fn constant<M: Model, V: Value>(reference: ValueReference) -> Result<V, Failure> {
     match Provenance::find(reference) {
-        None => place(reference).map(Readable::Variable),
+        None => unknown::<_, M>(reference),
         Some(of) => match V::of_text(text(of)) {
-            Some(value) => Ok(Readable::Constant(value)),
+            Some(value) => Ok(value),
             None => another_type::<_, V>(of.name(), reference),
         },
     }
 }
 
+#[cold]
+fn unknown<T, M: Model>(reference: ValueReference) -> Result<T, Failure> {
+    refused(format!(
+        "value reference {reference} is not one of {}",
+        M::DESCRIPTION.name
+    ))
+}
+
+#[cold]
 fn another_type<T, V: Value>(name: &str, reference: ValueReference) -> Result<T, Failure> {
     refused(format!(
         "{name} (value reference {reference}) is not of type {}",
@@ -213,22 +206,29 @@ impl<M: Model> Instance<M> {
     pub(crate) fn get<V: Value>(
         &mut self,
         references: &[ValueReference],
-        mut put: impl FnMut(usize, &V),
+        mut put: impl FnMut(usize, V),
     ) -> Outcome {
         if self.now.phase == Phase::InitializationMode {
             // All are looked up before anything is computed: a refused Get changes nothing.
             for &reference in references {
-                readable::<M, V>(reference)?;
+                if M::DESCRIPTION.find(reference).is_some() {
+                    scalar::<M, V>(reference)?;
+                } else {
+                    constant::<M, V>(reference)?;
+                }
             }
             // What cannot be initialized yet still shows its values; fmi2ExitInitializationMode says what is wrong.
             let _ = self.initialize();
         }
         for (i, &reference) in references.iter().enumerate() {
-            match readable::<M, V>(reference)? {
-                Readable::Constant(value) => put(i, &value),
-                Readable::Variable(Place { at, element, .. }) => {
-                    put(i, &at(&mut self.now.model)[element]);
-                }
+            match M::DESCRIPTION.find(reference) {
+                Some((variable, element)) => match V::at(&variable.access) {
+                    Some(at) => put(i, at.get(&self.now.model, element)),
+                    None => {
+                        return another_type::<_, V>(&variable.element_name(element), reference);
+                    }
+                },
+                None => put(i, constant::<M, V>(reference)?),
             }
         }
         Ok(())
@@ -244,12 +244,14 @@ impl<M: Model> Instance<M> {
         let phase = self.now.phase;
         let mut tuned = false;
         for (i, &reference) in references.iter().enumerate() {
-            if let Some(of) = Provenance::find(reference) {
-                return refused(format!("{} {COMPUTED}", of.name()));
+            if M::DESCRIPTION.find(reference).is_none() {
+                if let Some(of) = Provenance::find(reference) {
+                    return refused(format!("{} {COMPUTED}", of.name()));
+                }
             }
-            let Place {
+            let Scalar {
                 variable, element, ..
-            } = place::<M, V>(reference)?;
+            } = scalar::<M, V>(reference)?;
             let objection = match (not_settable(variable, phase), value(i)) {
                 (Some(reason), _) => Some(reason.to_owned()),
                 (None, Err(reason)) => Some(reason.to_owned()),
@@ -263,8 +265,9 @@ impl<M: Model> Instance<M> {
         let tuned_in_run = tuned && phase == Phase::StepComplete;
         let before = tuned_in_run.then(|| self.now.model.clone());
         for (i, &reference) in references.iter().enumerate() {
-            if let (Place { element, at, .. }, Ok(value)) = (place::<M, V>(reference)?, value(i)) {
-                at(&mut self.now.model)[element] = value;
+            if let (Scalar { element, at, .. }, Ok(value)) = (scalar::<M, V>(reference)?, value(i))
+            {
+                at.set(&mut self.now.model, element, value);
             }
         }
         self.stale |= phase == Phase::InitializationMode;

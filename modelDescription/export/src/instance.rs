@@ -5,10 +5,10 @@ use crate::ffi::{Callbacks, LAST_SUCCESSFUL_TIME, StatusKind, TERMINATED};
 use crate::legality::Phase;
 use crate::log::{self, Category, Enabled, Log};
 use crate::model::Model;
+use crate::outputs::Outputs;
 use crate::resource;
 use crate::snapshot::Snapshot;
 use crate::time::Step;
-use declaration::Access;
 use std::ffi::{CStr, CString};
 use std::path::PathBuf;
 
@@ -26,6 +26,7 @@ pub struct Instance<M: Model> {
     pub(crate) now: Snapshot<M>,
     /// In Initialization Mode: something was set since the model was last initialized.
     pub(crate) stale: bool,
+    outputs: Outputs<M>,
     /// Strings handed to the importer, alive until its next call.
     pub(crate) strings: Vec<CString>,
 }
@@ -51,6 +52,7 @@ impl<M: Model> Instance<M> {
             resources: None,
             now,
             stale: false,
+            outputs: Outputs::new(),
             strings: Vec::new(),
         };
         match location.map(resource::path) {
@@ -170,7 +172,7 @@ impl<M: Model> Instance<M> {
             candidate
                 .initialize(start_time, &mut self.log())
                 .map_err(|refusal| refusal.0)?;
-            check_outputs(&mut candidate).map_err(Failure::Refused)?;
+            self.outputs.check(&candidate).map_err(Failure::Refused)?;
             self.now.model = candidate;
             self.stale = false;
         }
@@ -231,7 +233,9 @@ impl<M: Model> Instance<M> {
         model
             .step(step, &mut log)
             .map_err(|refusal| Failure::Broken(refusal.0))?;
-        check_outputs(model).map_err(Failure::Broken)?;
+        self.outputs
+            .check(&self.now.model)
+            .map_err(Failure::Broken)?;
         self.now.time = t + h;
         Ok(())
     }
@@ -272,25 +276,6 @@ pub(crate) fn refused<T>(reason: String) -> Result<T, Failure> {
 
 fn c_name(name: &str) -> Option<CString> {
     CString::new(name).ok()
-}
-
-/// No NaN and no infinity may leave a model, but for NaN where a row says so (a sensor's failure).
-fn check_outputs<M: Model>(model: &mut M) -> Result<(), String> {
-    for variable in M::DESCRIPTION.variables {
-        if let (true, Access::Real { at, unit, .. }) = (variable.is_calculated(), variable.access) {
-            let values = at(model);
-            let meant = |value: f64| value.is_finite() || (variable.may_be_nan && value.is_nan());
-            if let Some(i) = values.iter().position(|&value| !meant(value)) {
-                let value = values[i];
-                return Err(format!(
-                    "{} = {value} {}, expected a finite value",
-                    variable.element_name(i),
-                    unit.name
-                ));
-            }
-        }
-    }
-    Ok(())
 }
 
 /// The name under which an instance that could not be created logs.
@@ -350,7 +335,7 @@ mod tests {
     #[test]
     fn nan_leaves_a_model_only_where_its_row_says_so_and_infinity_nowhere() {
         let check = |sound, failing| {
-            check_outputs(&mut Sensor {
+            Outputs::new().check(&Sensor {
                 sound,
                 failing,
                 seen: f64::INFINITY,

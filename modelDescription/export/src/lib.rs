@@ -26,6 +26,7 @@
 //! | [`guard`] | null, phase, panic, log, status | 2.1.3 |
 //! | [`instance`] | one instance: life cycle, variables, steps | 2.1.6, 2.1.7, 4.2.2 |
 //! | [`access`] | Get and Set by value reference | 2.1.7 |
+//! | `outputs` | nothing but finite numbers leaves a model | |
 //! | [`provenance`] | version and git hash, which every model has | |
 //! | [`snapshot`] | FMU state as bytes with a checked format | 2.1.8 |
 //! | [`resource`] | `fmuResourceLocation` as a path | 2.1.5 |
@@ -42,6 +43,7 @@ pub mod instance;
 pub mod legality;
 pub mod log;
 pub mod model;
+mod outputs;
 pub mod provenance;
 pub mod resource;
 pub mod snapshot;

@@ -122,12 +122,11 @@ impl<M: Model> Snapshot<M> {
     }
 
     /// With times and parameters as Set would accept them: bytes with a right checksum may still be forged.
-    fn checked(mut self) -> Result<Self, String> {
+    fn checked(self) -> Result<Self, String> {
         if !(self.start_time.is_finite() && self.time.is_finite()) {
             return Err("serialized state: a time that is not finite".into());
         }
-        check_parameters(&mut self.model)
-            .map_err(|refusal| format!("serialized state: {refusal}"))?;
+        check_parameters(&self.model).map_err(|refusal| format!("serialized state: {refusal}"))?;
         Ok(self)
     }
 }

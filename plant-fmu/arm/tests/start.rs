@@ -122,16 +122,22 @@ fn rows_and_physics_agree_on_names_and_bounds() {
     let rows = ExoskeletonArm::DESCRIPTION.variables.iter();
     let mut checked = 0;
     for row in rows.filter(|row| row.causality == Causality::Parameter) {
-        let Access::Real { min, max, at, .. } = row.access else {
+        let Access::Real {
+            range: row_range,
+            at,
+            ..
+        } = row.access
+        else {
             continue;
         };
+        let (min, max) = (row_range.low, row_range.high);
         if sensors.iter().any(|sensor| row.name.starts_with(sensor)) {
             continue;
         }
         for element in 0..row.len {
             for beyond in [min - 1.0, max + 1.0] {
                 let mut arm = ExoskeletonArm::default();
-                at(&mut arm)[element] = beyond;
+                at.set(&mut arm, element, beyond);
                 let (parameters, start) = arm.parameters.plant();
                 let Err(ParameterError::OutOfRange { range, value }) = parameters.check(&start)
                 else {
@@ -150,10 +156,10 @@ fn rows_and_physics_agree_on_names_and_bounds() {
     assert_eq!(checked, 2 * 72);
 }
 
-fn bits(row: &Variable<ExoskeletonArm>, arm: &mut ExoskeletonArm) -> Vec<u64> {
+fn bits(row: &Variable<ExoskeletonArm>, arm: &ExoskeletonArm) -> Vec<u64> {
     match row.access {
-        Access::Real { at, .. } => at(arm).iter().map(|value| value.to_bits()).collect(),
-        Access::Boolean { at } => at(arm).iter().map(|&value| u64::from(value)).collect(),
+        Access::Real { at, .. } => at.values(arm).map(f64::to_bits).collect(),
+        Access::Boolean { at } => at.values(arm).map(u64::from).collect(),
         _ => panic!("{} is a Real or a Boolean", row.name),
     }
 }
@@ -167,15 +173,22 @@ fn changed(row: &Variable<ExoskeletonArm>, i: usize, arm: &ExoskeletonArm) -> Ve
     };
     match row.access {
         Access::Real { at, .. } => [1.0, -1.0]
-            .map(|sign| with(&|arm| at(arm)[i] += sign * (0.001 + 0.01 * at(arm)[i].abs())))
+            .map(|sign| {
+                with(&|arm| {
+                    let value = at.get(arm, i);
+                    at.set(arm, i, value + sign * (0.001 + 0.01 * value.abs()));
+                })
+            })
             .into(),
-        Access::Integer { at, .. } => [1, 5].map(|more| with(&|arm| at(arm)[i] += more)).into(),
+        Access::Integer { at, .. } => [1, 5]
+            .map(|more| with(&|arm| at.set(arm, i, at.get(arm, i) + more)))
+            .into(),
         Access::Enumeration { of, at, .. } => of
             .items
             .iter()
-            .map(|item| with(&|arm| at(arm)[i] = item.value))
+            .map(|item| with(&|arm| at.set(arm, i, item.value)))
             .collect(),
-        Access::Boolean { at } => vec![with(&|arm| at(arm)[i] = !at(arm)[i])],
+        Access::Boolean { at } => vec![with(&|arm| at.set(arm, i, !at.get(arm, i)))],
         Access::String { .. } => panic!("no row is a String"),
     }
 }

@@ -78,7 +78,7 @@ fn the_table_of_the_arm_is_that_of_the_single_arm() {
             .filter(|row| !but.iter().any(|but| row.name.starts_with(but)))
             .map(|row| {
                 let bounds = match row.access {
-                    Access::Real { min, max, .. } => Some((min.to_bits(), max.to_bits())),
+                    Access::Real { range, .. } => Some((range.low.to_bits(), range.high.to_bits())),
                     _ => None,
                 };
                 (row.name, row.len, bounds, row.about)
@@ -116,10 +116,10 @@ fn each_side_has_the_ports_of_the_single_arm() {
     }
 }
 
-fn bits(row: &Variable<ExoskeletonArms>, arms: &mut ExoskeletonArms) -> Vec<u64> {
+fn bits(row: &Variable<ExoskeletonArms>, arms: &ExoskeletonArms) -> Vec<u64> {
     match row.access {
-        Access::Real { at, .. } => at(arms).iter().map(|value| value.to_bits()).collect(),
-        Access::Boolean { at } => at(arms).iter().map(|&value| u64::from(value)).collect(),
+        Access::Real { at, .. } => at.values(arms).map(f64::to_bits).collect(),
+        Access::Boolean { at } => at.values(arms).map(u64::from).collect(),
         _ => panic!("{} is a Real or a Boolean", row.name),
     }
 }
@@ -137,9 +137,14 @@ fn changed(
     };
     match row.access {
         Access::Real { at, .. } => [1.0, -1.0]
-            .map(|sign| with(&|arms| at(arms)[i] += sign * (0.001 + 0.01 * at(arms)[i].abs())))
+            .map(|sign| {
+                with(&|arms| {
+                    let value = at.get(arms, i);
+                    at.set(arms, i, value + sign * (0.001 + 0.01 * value.abs()));
+                })
+            })
             .into(),
-        Access::Boolean { at } => vec![with(&|arms| at(arms)[i] = !at(arms)[i])],
+        Access::Boolean { at } => vec![with(&|arms| at.set(arms, i, !at.get(arms, i)))],
         _ => panic!("{} is a Real or a Boolean", row.name),
     }
 }

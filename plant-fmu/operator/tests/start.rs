@@ -76,11 +76,11 @@ fn a_second_initialization_starts_from_parameters_and_inputs_alone() {
     assert_eq!(again.f_h, [0.0; 3]);
 }
 
-fn outputs(row: &Variable<HumanOperator>, human: &mut HumanOperator) -> Vec<u64> {
+fn outputs(row: &Variable<HumanOperator>, human: &HumanOperator) -> Vec<u64> {
     let Access::Real { at, .. } = row.access else {
         panic!("{} is a Real", row.name)
     };
-    at(human).iter().map(|value| value.to_bits()).collect()
+    at.values(human).map(f64::to_bits).collect()
 }
 
 /// Changes element `i` of a row; `false` when there is no such element.
@@ -89,11 +89,11 @@ fn change(row: &Variable<HumanOperator>, i: usize, human: &mut HumanOperator) ->
         return false;
     }
     match row.access {
-        Access::Real { at, .. } => at(human)[i] += 0.01,
+        Access::Real { at, .. } => at.set(human, i, at.get(human, i) + 0.01),
         Access::Integer { at, .. } | Access::Enumeration { at, .. } => {
-            at(human)[i] = 3 - at(human)[i]
+            at.set(human, i, 3 - at.get(human, i))
         }
-        Access::Boolean { at } => at(human)[i] = !at(human)[i],
+        Access::Boolean { at } => at.set(human, i, !at.get(human, i)),
         Access::String { .. } => panic!("no row is a String"),
     }
     true

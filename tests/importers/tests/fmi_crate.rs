@@ -90,13 +90,13 @@ impl Driven for Built {
 struct Linked<M>(M);
 
 impl<M: Model> Linked<M> {
-    fn at(&mut self, name: &str) -> &mut f64 {
+    fn set_real(&mut self, name: &str, value: f64) {
         let scalar = M::DESCRIPTION
             .scalars()
             .find(|scalar| scalar.name() == name)
             .unwrap_or_else(|| panic!("no {name}"));
         match scalar.variable.access {
-            Access::Real { at, .. } => &mut at(&mut self.0)[scalar.element],
+            Access::Real { at, .. } => at.set(&mut self.0, scalar.element, value),
             _ => panic!("{name} is not a Real"),
         }
     }
@@ -104,7 +104,7 @@ impl<M: Model> Linked<M> {
 
 impl<M: Model> Driven for Linked<M> {
     fn set(&mut self, name: &str, value: f64) {
-        *self.at(name) = value;
+        self.set_real(name, value);
     }
 
     fn initialize(&mut self) {
@@ -134,15 +134,11 @@ impl<M: Model> Driven for Linked<M> {
             .filter(|row| row.causality == Causality::Output)
         {
             match row.access {
-                Access::Real { at, .. } => {
-                    reals.extend(at(&mut self.0).iter().map(|value| value.to_bits()))
-                }
+                Access::Real { at, .. } => reals.extend(at.values(&self.0).map(f64::to_bits)),
                 Access::Integer { at, .. } => {
-                    integers.extend(at(&mut self.0).iter().map(|&value| u64::from(value as u32)))
+                    integers.extend(at.values(&self.0).map(|value| u64::from(value as u32)))
                 }
-                Access::Boolean { at } => {
-                    booleans.extend(at(&mut self.0).iter().map(|&value| u64::from(value)))
-                }
+                Access::Boolean { at } => booleans.extend(at.values(&self.0).map(u64::from)),
                 Access::String { .. } | Access::Enumeration { .. } => {}
             }
         }

@@ -12,7 +12,7 @@ use std::collections::HashSet;
 
 #[test]
 fn start_values_lie_within_their_bounds_and_names_are_unique() {
-    let mut start = ArmController::default();
+    let start = ArmController::default();
     let mut names = HashSet::new();
     for scalar in ArmController::DESCRIPTION.scalars() {
         let (name, i) = (scalar.name(), scalar.element);
@@ -22,16 +22,16 @@ fn start_values_lie_within_their_bounds_and_names_are_unique() {
             "{name} without description"
         );
         match scalar.variable.access {
-            Access::Real { min, max, at, .. } => {
-                let value = at(&mut start)[i];
-                assert!(min <= value && value <= max, "{name} = {value}");
+            Access::Real { range, at, .. } => {
+                let value = at.get(&start, i);
+                assert!(range.contains(value), "{name} = {value}");
             }
             Access::Integer { min, max, at } => {
-                let value = at(&mut start)[i];
+                let value = at.get(&start, i);
                 assert!(min <= value && value <= max, "{name} = {value}");
             }
             Access::Enumeration { of, at, .. } => {
-                let value = at(&mut start)[i];
+                let value = at.get(&start, i);
                 assert!(
                     of.items.iter().any(|item| item.value == value),
                     "{name} = {value}"

@@ -21,7 +21,7 @@ pub unsafe fn get<M: Model, V: Value + Copy>(
         guard::<M>(c, function, |instance| {
             let references = known(array(references, n), "vr")?;
             let values = known(array_mut(values, n), "value")?;
-            instance.get::<V>(references, |i, &value| values[i] = value)
+            instance.get::<V>(references, |i, value| values[i] = value)
         })
     }
 }
@@ -56,7 +56,7 @@ pub unsafe fn get_boolean<M: Model>(
         guard::<M>(c, F::fmi2GetBoolean, |instance| {
             let references = known(array(references, n), "vr")?;
             let values = known(array_mut(values, n), "value")?;
-            instance.get::<bool>(references, |i, &value| values[i] = value.into())
+            instance.get::<bool>(references, |i, value| values[i] = value.into())
         })
     }
 }

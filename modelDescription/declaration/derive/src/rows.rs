@@ -1,0 +1,230 @@
+//! `impl Rows`.
+
+use crate::attribute::{Part, Role, Row, constant, is_discrete};
+use proc_macro2::TokenStream;
+use quote::quote;
+use syn::{Data, DeriveInput, Error, Expr, Field, Fields, Ident, RangeLimits, Result, Type};
+
+/// The fields of a struct with named fields.
+pub fn fields(item: &DeriveInput) -> Result<impl Iterator<Item = (&Ident, &Field)>> {
+    match &item.data {
+        Data::Struct(data) if matches!(data.fields, Fields::Named(_)) => Ok(data
+            .fields
+            .iter()
+            .filter_map(|field| field.ident.as_ref().map(|name| (name, field)))),
+        _ => Err(Error::new_spanned(
+            &item.ident,
+            "rows are the named fields of a struct",
+        )),
+    }
+}
+
+pub fn derive(item: &DeriveInput) -> Result<TokenStream> {
+    let name = &item.ident;
+    let discrete = is_discrete(&item.attrs)?;
+    let (mut counts, mut writes) = (Vec::new(), Vec::new());
+    for (field, declared) in fields(item)? {
+        match Role::of(declared)? {
+            Role::Row(attribute) => {
+                let row = row(field, &declared.ty, &attribute, discrete)?;
+                counts.push(quote!(1));
+                writes.push(quote! { rows[n] = #row; n += 1; });
+            }
+            Role::Part(part) => {
+                let Part { each, from, prefix } = *part;
+                let (of, each) = match (&declared.ty, each) {
+                    (Type::Array(array), true) => {
+                        let len = &array.len;
+                        (array.elem.as_ref(), quote!(#len))
+                    }
+                    (of, false) => (of, quote!(1)),
+                    (of, true) => return Err(Error::new_spanned(of, "each is for an array")),
+                };
+                let from = from.map_or(quote!(0), |from| quote!(#from));
+                let prefix = prefix.map_or(quote!(""), |prefix| quote!(#prefix));
+                counts.push(quote!(<#of as ::declaration::compose::Rows>::ROWS.len()));
+                writes.push(quote! {
+                    n = ::declaration::compose::lifted(&mut rows, n, <#of as ::declaration::compose::Rows>::ROWS,
+                        ::declaration::compose::Part {
+                            offset: ::core::mem::offset_of!(Self, #field), each: #each, from: #from, prefix: #prefix,
+                        });
+                });
+            }
+            Role::State => {}
+        }
+    }
+    Ok(quote! {
+        impl ::declaration::compose::Rows for #name {
+            const ROWS: &'static [::declaration::Variable<Self>] = {
+                const N: usize = 0 #(+ #counts)*;
+                const SORTED: [::declaration::Variable<#name>; N] = ::declaration::compose::sorted(#name::rows_as_written());
+                &SORTED
+            };
+        }
+
+        impl #name {
+            #[doc(hidden)]
+            const fn rows_as_written<const N: usize>() -> [::declaration::Variable<Self>; N] {
+                let mut rows = [::declaration::Variable::NOTHING; N];
+                let mut n = 0;
+                #(#writes)*
+                assert!(n == N);
+                rows
+            }
+        }
+    })
+}
+
+fn row(field: &Ident, of: &Type, attribute: &Row, discrete: bool) -> Result<TokenStream> {
+    let (element, is_vector) = match of {
+        Type::Array(array) => (array.elem.as_ref(), true),
+        other => (other, false),
+    };
+    let kind = match element {
+        Type::Path(path) => path.path.segments.last().map(|s| s.ident.to_string()),
+        _ => None,
+    };
+    let plain = quote!(::declaration::place::of_field(
+        ::core::mem::offset_of!(Self, #field), |whole: &Self| &whole.#field));
+    let word = quote!(::declaration::place::of_word(
+        ::core::mem::offset_of!(Self, #field), |whole: &Self| &whole.#field));
+    let (access, is_real) = match kind.as_deref() {
+        Some("i32") if attribute.has("boolean") => (quote!(Boolean { at: #word }), false),
+        Some("i32") if attribute.has("items") => {
+            let items = attribute.key("items");
+            let declared = if attribute.has("typed") {
+                quote!(Enumeration)
+            } else {
+                quote!(Integer)
+            };
+            let access = quote!(Enumeration {
+                of: &#items, declared: ::declaration::Declared::#declared, at: #plain
+            });
+            (access, false)
+        }
+        Some("i32") => {
+            let (low, high) = match attribute.key("integers") {
+                Some(range) => bounds(range, &quote!(i32::MIN), &quote!(i32::MAX))?,
+                None => (quote!(i32::MIN), quote!(i32::MAX)),
+            };
+            (quote!(Integer { min: #low, max: #high, at: #plain }), false)
+        }
+        Some("bool") => (quote!(Boolean { at: #plain }), false),
+        Some("String") => (quote!(String { at: #plain }), false),
+        Some(_) => {
+            let unit = attribute
+                .key("unit")
+                .map_or(quote!(::declaration::unit::NONE), |unit| {
+                    constant(unit, "unit")
+                });
+            let range = match attribute.key("range") {
+                None => quote!(::declaration::range::FINITE),
+                Some(range @ Expr::Range(_)) => {
+                    let (low, high) =
+                        bounds(range, &quote!(f64::NEG_INFINITY), &quote!(f64::INFINITY))?;
+                    let words = match (low.to_string(), high.to_string()) {
+                        (low, high) if high.contains("INFINITY") => {
+                            format!("a finite value, at least {low}")
+                        }
+                        (low, high) => format!("{} to {}", joined(&low), joined(&high)),
+                    };
+                    quote!(::declaration::Range::new(#low, #high, #words))
+                }
+                Some(range) => constant(range, "range"),
+            };
+            (
+                quote!(Real { unit: #unit, range: #range, at: #plain }),
+                true,
+            )
+        }
+        None => {
+            return Err(Error::new_spanned(
+                of,
+                "expected a number, a Boolean or a String",
+            ));
+        }
+    };
+
+    let name = attribute.key("name").map_or_else(
+        || {
+            let name = field.to_string();
+            if is_vector {
+                quote!(concat!(#name, "[i]"))
+            } else {
+                quote!(#name)
+            }
+        },
+        |name| quote!(#name),
+    );
+    let variability = if attribute.causality == "parameter" || attribute.causality == "calculated" {
+        if attribute.has("tunable") {
+            quote!(Tunable)
+        } else {
+            quote!(Fixed)
+        }
+    } else if attribute.has("discrete") || (!attribute.has("continuous") && (discrete || !is_real))
+    {
+        quote!(Discrete)
+    } else {
+        quote!(Continuous)
+    };
+    let causality = match attribute.causality.to_string().as_str() {
+        "calculated" => quote!(calculated_parameter),
+        _ => {
+            let causality = &attribute.causality;
+            quote!(#causality)
+        }
+    };
+    let number = &attribute.number;
+    let about = attribute.key("about").map_or_else(
+        || {
+            let about = &attribute.about;
+            quote!(#about)
+        },
+        |about| quote!(#about),
+    );
+    let from = attribute.key("from").map(|from| match from {
+        Expr::Array(_) => quote!(.initially_from(&#from)),
+        _ => quote!(.initially_from(#from)),
+    });
+    let nan = attribute.has("nan").then(|| quote!(.may_be_nan()));
+    Ok(quote! {
+        ::declaration::Variable::new(#name, ::declaration::Access::#access)
+            .numbered(#number)
+            .#causality(::declaration::Variability::#variability)
+            .about(#about)
+            #from
+            #nan
+    })
+}
+
+/// Tokens of a number without the spaces between sign and digits.
+fn joined(number: &str) -> String {
+    number.replace("- ", "-")
+}
+
+/// Low and high of `a..=b`, `a..`, `..=b`.
+fn bounds(
+    range: &Expr,
+    least: &TokenStream,
+    most: &TokenStream,
+) -> Result<(TokenStream, TokenStream)> {
+    let Expr::Range(bounds) = range else {
+        return Err(Error::new_spanned(range, "expected low..=high"));
+    };
+    if matches!(bounds.limits, RangeLimits::HalfOpen(_)) && bounds.end.is_some() {
+        return Err(Error::new_spanned(
+            range,
+            "the upper bound is included: low..=high",
+        ));
+    }
+    let low = bounds
+        .start
+        .as_ref()
+        .map_or(least.clone(), |low| quote!(#low));
+    let high = bounds
+        .end
+        .as_ref()
+        .map_or(most.clone(), |high| quote!(#high));
+    Ok((low, high))
+}

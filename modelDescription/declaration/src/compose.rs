@@ -1,0 +1,149 @@
+//! Rows of a struct, of its parts and of its arrays of parts: one list, by number, made at compile time.
+
+use crate::variable::{Access, IN_ORDER, Variable};
+
+/// A struct whose fields are rows. Derived: see [`Rows`](macro@crate::Rows).
+///
+/// What cannot be is no row; the compiler says so:
+///
+/// ```compile_fail
+/// #[derive(declaration::Rows)]
+/// struct Twice {
+///     /// One.
+///     #[input(3)]
+///     one: f64,
+///     /// Another one, with the number of the first.
+///     #[input(3)]
+///     other: f64,
+/// }
+/// const ROWS: usize = <Twice as declaration::Rows>::ROWS.len();
+/// ```
+///
+/// ```compile_fail
+/// #[derive(declaration::Rows)]
+/// struct Unknown {
+///     /// No such key.
+///     #[parameter(0, units = METRE)]
+///     x: f64,
+/// }
+/// ```
+///
+/// ```compile_fail
+/// #[derive(declaration::Rows)]
+/// struct Foreign {
+///     /// No type of the interface.
+///     #[parameter(0)]
+///     x: u8,
+/// }
+/// ```
+pub trait Rows: Sized + 'static {
+    /// The rows, by number.
+    const ROWS: &'static [Variable<Self>];
+}
+
+/// How the rows of a part stand in the whole.
+#[derive(Clone, Copy)]
+pub struct Part {
+    /// Where the part lies, bytes from the begin of the whole.
+    pub offset: usize,
+    /// How many there are: more than one for an array of parts, whose rows then are vectors.
+    pub each: usize,
+    /// What is added to the rows' numbers.
+    pub from: u32,
+    /// What comes before the rows' names.
+    pub prefix: &'static str,
+}
+
+/// Writes `rows` of the struct `S`, a part of `M`, into `all` from position `n` on; returns the position after the last.
+#[doc(hidden)]
+pub const fn lifted<M, S>(
+    all: &mut [Variable<M>],
+    mut n: usize,
+    rows: &[Variable<S>],
+    part: Part,
+) -> usize {
+    let mut i = 0;
+    while i < rows.len() {
+        all[n] = in_whole(&rows[i], part);
+        n += 1;
+        i += 1;
+    }
+    n
+}
+
+const fn in_whole<M, S>(row: &Variable<S>, part: Part) -> Variable<M> {
+    macro_rules! place {
+        ($at:expr) => {
+            if part.each > 1 {
+                $at.each(part.each)
+            } else {
+                *$at
+            }
+            .within(part.offset)
+        };
+    }
+    let access = match &row.access {
+        Access::Real { unit, range, at } => Access::Real {
+            unit: *unit,
+            range: *range,
+            at: place!(at),
+        },
+        Access::Integer { min, max, at } => Access::Integer {
+            min: *min,
+            max: *max,
+            at: place!(at),
+        },
+        Access::Boolean { at } => Access::Boolean { at: place!(at) },
+        #[cfg(feature = "std")]
+        Access::String { at } => Access::String { at: place!(at) },
+        Access::Enumeration { of, declared, at } => Access::Enumeration {
+            of,
+            declared: *declared,
+            at: place!(at),
+        },
+    };
+    let whole = Variable::new(row.name, access);
+    Variable {
+        number: row.number + part.from,
+        prefix: if part.prefix.is_empty() {
+            row.prefix
+        } else {
+            part.prefix
+        },
+        causality: row.causality,
+        variability: row.variability,
+        initially_from: row.initially_from,
+        may_be_nan: row.may_be_nan,
+        about: row.about,
+        ..whole
+    }
+}
+
+/// The rows in ascending order of their numbers.
+///
+/// # Panics
+/// When two rows have one number (at compile time: rows are constants).
+#[doc(hidden)]
+pub const fn sorted<M, const N: usize>(mut rows: [Variable<M>; N]) -> [Variable<M>; N] {
+    let mut i = 1;
+    while i < N {
+        let mut j = i;
+        while j > 0 && rows[j - 1].number > rows[j].number {
+            let later = rows[j - 1];
+            rows[j - 1] = rows[j];
+            rows[j] = later;
+            j -= 1;
+        }
+        i += 1;
+    }
+    let mut i = 1;
+    while i < N {
+        assert!(
+            rows[i - 1].number < rows[i].number,
+            "two rows have one number"
+        );
+        assert!(rows[i].number < IN_ORDER, "a row has no number");
+        i += 1;
+    }
+    rows
+}

@@ -1,0 +1,56 @@
+//! What identifies an interface.
+
+use crate::{Access, Declare, Description, provenance};
+use core::fmt::Write as _;
+
+impl<M: Declare> Description<M> {
+    /// The guid: a hash (UUID version 5) over everything an importer can rely on: names, value references, types,
+    /// units, bounds, start values, causality, variability. Descriptions are left out.
+    pub fn guid(&self) -> String {
+        let start = M::default();
+        let mut text = format!("{} {:?} {:?}\n", self.name, self.stepping, self.experiment);
+        for scalar in self.scalars() {
+            let (v, i) = (scalar.variable, scalar.element);
+            let kind = match &v.access {
+                Access::Real { unit, range, at } => {
+                    let (min, max) = (range.low, range.high);
+                    format!("{unit:?} {min} {max} {:?}", at.get(&start, i))
+                }
+                Access::Integer { min, max, at } => {
+                    format!("Integer {min} {max} {}", at.get(&start, i))
+                }
+                Access::Boolean { at } => format!("Boolean {}", at.get(&start, i)),
+                Access::String { at } => format!("String {:?}", at.get(&start, i)),
+                Access::Enumeration { of, declared, at } => {
+                    let items: Vec<_> = of
+                        .items
+                        .iter()
+                        .map(|item| (item.value, item.name))
+                        .collect();
+                    format!("{declared:?} {} {items:?} {}", of.name, at.get(&start, i))
+                }
+            };
+            let nan = if v.may_be_nan { " or NaN" } else { "" };
+            let _ = writeln!(
+                text,
+                "{} {} {:?} {:?} {:?} {kind}{nan}",
+                scalar.reference(),
+                scalar.name(),
+                v.causality,
+                v.variability,
+                v.initially_from
+            );
+        }
+        for one in provenance::ALL {
+            let _ = writeln!(
+                text,
+                "{} {} fixed local String",
+                one.reference(),
+                one.name()
+            );
+        }
+        uuid::Uuid::new_v5(&uuid::Uuid::NAMESPACE_OID, text.as_bytes())
+            .braced()
+            .to_string()
+    }
+}

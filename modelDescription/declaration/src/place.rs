@@ -1,0 +1,320 @@
+//! Where a row's values lie in the struct that holds them.
+
+use core::marker::PhantomData;
+
+/// The place of a row's values in the struct `M`: an offset, and a stride where there are several. The interface sees
+/// values of type `V`; what is stored may be another one (see [`Leaf`]).
+///
+/// A place is made by the macros and the derive of this crate alone, from the path of a field that the compiler has found to
+/// be of the right type. All reading and writing by offset is in this file.
+pub struct Place<M, V> {
+    offset: usize,
+    stride: usize,
+    len: usize,
+    stored: Stored,
+    holder: PhantomData<fn(&M) -> V>,
+}
+
+impl<M, V> Clone for Place<M, V> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+impl<M, V> Copy for Place<M, V> {}
+
+/// In what type a value is stored.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stored {
+    /// In that of the interface.
+    AsIs,
+    /// A Real in single precision.
+    Single,
+    /// A Boolean as a 32-bit integer, 0 or 1: what C hands over may be any bits.
+    Word,
+}
+
+mod sealed {
+    pub trait Sealed {}
+}
+
+/// A type of the interface: `f64`, `i32`, `bool` and, with the feature `std`, `String`.
+pub trait Value: sealed::Sealed + Clone + 'static {
+    /// Reads the value at `place`.
+    ///
+    /// # Safety
+    /// `place` points to a valid value of the stored type.
+    #[doc(hidden)]
+    unsafe fn read(place: *const u8, stored: Stored) -> Self;
+
+    /// Writes the value to `place`.
+    ///
+    /// # Safety
+    /// `place` points to a valid value of the stored type, which may be written.
+    #[doc(hidden)]
+    unsafe fn write(self, place: *mut u8, stored: Stored);
+}
+
+impl sealed::Sealed for f64 {}
+impl Value for f64 {
+    unsafe fn read(place: *const u8, stored: Stored) -> Self {
+        // SAFETY: the caller's contract.
+        unsafe {
+            match stored {
+                Stored::Single => f64::from(*place.cast::<f32>()),
+                Stored::AsIs | Stored::Word => *place.cast(),
+            }
+        }
+    }
+
+    unsafe fn write(self, place: *mut u8, stored: Stored) {
+        // SAFETY: the caller's contract.
+        unsafe {
+            match stored {
+                Stored::Single => *place.cast() = self as f32,
+                Stored::AsIs | Stored::Word => *place.cast() = self,
+            }
+        }
+    }
+}
+
+impl sealed::Sealed for i32 {}
+impl Value for i32 {
+    unsafe fn read(place: *const u8, _: Stored) -> Self {
+        // SAFETY: the caller's contract.
+        unsafe { *place.cast() }
+    }
+
+    unsafe fn write(self, place: *mut u8, _: Stored) {
+        // SAFETY: the caller's contract.
+        unsafe { *place.cast() = self }
+    }
+}
+
+impl sealed::Sealed for bool {}
+impl Value for bool {
+    unsafe fn read(place: *const u8, stored: Stored) -> Self {
+        // SAFETY: the caller's contract.
+        unsafe {
+            match stored {
+                Stored::Word => *place.cast::<i32>() != 0,
+                Stored::AsIs | Stored::Single => *place.cast(),
+            }
+        }
+    }
+
+    unsafe fn write(self, place: *mut u8, stored: Stored) {
+        // SAFETY: the caller's contract.
+        unsafe {
+            match stored {
+                Stored::Word => *place.cast() = i32::from(self),
+                Stored::AsIs | Stored::Single => *place.cast() = self,
+            }
+        }
+    }
+}
+
+#[cfg(feature = "std")]
+impl sealed::Sealed for String {}
+#[cfg(feature = "std")]
+impl Value for String {
+    unsafe fn read(place: *const u8, _: Stored) -> Self {
+        // SAFETY: the caller's contract.
+        unsafe { (*place.cast::<Self>()).clone() }
+    }
+
+    unsafe fn write(self, place: *mut u8, _: Stored) {
+        // SAFETY: the caller's contract.
+        unsafe { *place.cast::<Self>() = self }
+    }
+}
+
+/// The type of a field that a row can show: a value, or an array of values.
+pub trait Leaf {
+    /// Its type in the interface.
+    type Value: Value;
+    /// How many there are.
+    const LEN: usize;
+    /// From one to the next, bytes.
+    const STRIDE: usize;
+    /// In what type they are stored.
+    const STORED: Stored;
+}
+
+macro_rules! leaf {
+    ($($field:ty => $value:ty, $stored:ident;)+) => {$(
+        impl Leaf for $field {
+            type Value = $value;
+            const LEN: usize = 1;
+            const STRIDE: usize = size_of::<Self>();
+            const STORED: Stored = Stored::$stored;
+        }
+    )+};
+}
+
+leaf! {
+    f64 => f64, AsIs;
+    f32 => f64, Single;
+    i32 => i32, AsIs;
+    bool => bool, AsIs;
+}
+
+#[cfg(feature = "std")]
+leaf! { String => String, AsIs; }
+
+impl<L: Leaf, const N: usize> Leaf for [L; N] {
+    type Value = L::Value;
+    const LEN: usize = N * L::LEN;
+    const STRIDE: usize = L::STRIDE;
+    const STORED: Stored = L::STORED;
+}
+
+/// The place of the field that `field` borrows, `offset` bytes from the begin of `M`. For the macros and the derive, which
+/// make both from one path.
+#[doc(hidden)]
+pub const fn of_field<M, L: Leaf>(offset: usize, field: fn(&M) -> &L) -> Place<M, L::Value> {
+    let _ = field;
+    assert!(L::LEN > 0, "a row has a value");
+    Place {
+        offset,
+        stride: L::STRIDE,
+        len: L::LEN,
+        stored: L::STORED,
+        holder: PhantomData,
+    }
+}
+
+/// The same for a Boolean, or an array of them, that is stored as `i32`.
+#[doc(hidden)]
+pub const fn of_word<M, L: Leaf<Value = i32>>(
+    offset: usize,
+    field: fn(&M) -> &L,
+) -> Place<M, bool> {
+    let _ = field;
+    assert!(L::LEN > 0, "a row has a value");
+    Place {
+        offset,
+        stride: L::STRIDE,
+        len: L::LEN,
+        stored: Stored::Word,
+        holder: PhantomData,
+    }
+}
+
+impl<S, V> Place<S, V> {
+    /// The place in `M`, of which the struct `S` is a part that `part` borrows, at `offset`.
+    pub(crate) const fn within<M>(self, offset: usize) -> Place<M, V> {
+        Place {
+            offset: offset + self.offset,
+            stride: self.stride,
+            len: self.len,
+            stored: self.stored,
+            holder: PhantomData,
+        }
+    }
+
+    /// The places of this one value in each of `n` structs `S` that lie in an array.
+    pub(crate) const fn each(self, n: usize) -> Self {
+        assert!(
+            self.len == 1,
+            "each element of an array shows single values"
+        );
+        Self {
+            stride: size_of::<S>(),
+            len: n,
+            ..self
+        }
+    }
+}
+
+impl<M, V> Place<M, V> {
+    /// No place, see [`Variable::NOTHING`](crate::Variable::NOTHING).
+    pub(crate) const NOTHING: Self = Self {
+        offset: 0,
+        stride: 0,
+        len: 0,
+        stored: Stored::AsIs,
+        holder: PhantomData,
+    };
+
+    /// How many values there are.
+    pub const fn len(&self) -> usize {
+        self.len
+    }
+
+    /// Never: a row has a value.
+    pub const fn is_empty(&self) -> bool {
+        false
+    }
+
+    /// Distance of element `i` from the begin of `M`, bytes; in range for every `i`.
+    const fn offset_of(&self, i: usize) -> usize {
+        self.offset + self.stride * if i < self.len { i } else { self.len - 1 }
+    }
+
+    /// Bytes from the begin of `M` to the first value, from one value to the next, and in what type they are stored: for
+    /// programs in C.
+    pub const fn layout(&self) -> (usize, usize, Stored) {
+        (self.offset, self.stride, self.stored)
+    }
+}
+
+impl<M, V: Value> Place<M, V> {
+    /// The value of element `i`, from 0. The last one where there are fewer.
+    #[inline]
+    pub fn get(&self, model: &M, i: usize) -> V {
+        let begin = core::ptr::from_ref(model).cast::<u8>();
+        // SAFETY: `of_field` got the offset of a field of `M` of type `L`, whose elements are `L::STRIDE` apart and of the
+        // stored type; `within` and `each` keep that true. `model` is borrowed as a whole.
+        unsafe { V::read(begin.add(self.offset_of(i)), self.stored) }
+    }
+
+    /// Gives element `i`, from 0, another value. The last one where there are fewer.
+    #[inline]
+    pub fn set(&self, model: &mut M, i: usize, value: V) {
+        let begin = core::ptr::from_mut(model).cast::<u8>();
+        // SAFETY: as in `get`; `model` is borrowed for writing.
+        unsafe { value.write(begin.add(self.offset_of(i)), self.stored) }
+    }
+
+    /// All values, in order.
+    pub fn values<'a>(&'a self, model: &'a M) -> impl Iterator<Item = V> + use<'a, M, V> {
+        (0..self.len).map(move |i| self.get(model, i))
+    }
+}
+
+impl<M> Place<M, f64> {
+    /// Whether all values are finite.
+    #[inline]
+    pub fn are_finite(&self, model: &M) -> bool {
+        // Without a branch for each value: this runs over all outputs at every step.
+        self.values(model)
+            .fold(true, |all, value| all & value.is_finite())
+    }
+
+    /// This place and `next` as one, if `next` begins where this one ends and both are stored alike.
+    pub fn followed_by(&self, next: &Self) -> Option<Self> {
+        let adjoins = next.offset == self.offset + self.len * self.stride;
+        let alike = next.stride == self.stride && next.stored == self.stored;
+        (adjoins && alike).then_some(Self {
+            len: self.len + next.len,
+            ..*self
+        })
+    }
+}
+
+impl<M> Place<M, bool> {
+    /// What is stored, as a number: 0 and 1 are Booleans, another number is none.
+    pub fn word(&self, model: &M, i: usize) -> i32 {
+        match self.stored {
+            Stored::Word => Place::<M, i32> {
+                offset: self.offset,
+                stride: self.stride,
+                len: self.len,
+                stored: Stored::AsIs,
+                holder: PhantomData,
+            }
+            .get(model, i),
+            Stored::AsIs | Stored::Single => i32::from(self.get(model, i)),
+        }
+    }
+}

@@ -1,0 +1,83 @@
+//! No NaN and no infinity may leave a model, but for NaN where a row says so (a sensor's failure).
+
+use crate::model::Model;
+use declaration::{Access, Place, Variable};
+
+/// The Reals that a model computes, in runs that can be looked through without a look at their rows.
+pub(crate) struct Outputs<M: Model> {
+    finite: Vec<Place<M, f64>>,
+    may_be_nan: Vec<Place<M, f64>>,
+}
+
+impl<M: Model> Outputs<M> {
+    /// Those of the model's rows.
+    pub(crate) fn new() -> Self {
+        Self {
+            finite: runs(false),
+            may_be_nan: runs(true),
+        }
+    }
+
+    /// Whether all values in `model` may leave it.
+    ///
+    /// # Errors
+    /// The first that may not, with its name and unit.
+    pub(crate) fn check(&self, model: &M) -> Result<(), String> {
+        let finite = self.finite.iter().all(|run| run.are_finite(model));
+        let mut readings = self.may_be_nan.iter().flat_map(|run| run.values(model));
+        if finite && !readings.any(f64::is_infinite) {
+            return Ok(());
+        }
+        Err(refused(model))
+    }
+}
+
+/// The places of the calculated Reals that may be NaN, or of the others; adjoining ones as one.
+fn runs<M: Model>(may_be_nan: bool) -> Vec<Place<M, f64>> {
+    let mut places: Vec<Place<M, f64>> = M::DESCRIPTION
+        .variables
+        .iter()
+        .filter(|row| row.is_calculated() && row.may_be_nan == may_be_nan)
+        .filter_map(|row| match row.access {
+            Access::Real { at, .. } => Some(at),
+            _ => None,
+        })
+        .collect();
+    places.sort_by_key(|place| place.layout().0);
+    let mut runs: Vec<Place<M, f64>> = Vec::new();
+    for place in places {
+        match runs
+            .last_mut()
+            .and_then(|run| Some((run.followed_by(&place)?, run)))
+        {
+            Some((both, run)) => *run = both,
+            None => runs.push(place),
+        }
+    }
+    runs
+}
+
+/// What is wrong with a model's outputs.
+#[cold]
+fn refused<M: Model>(model: &M) -> String {
+    let wrong = |row: &Variable<M>| {
+        let (Access::Real { at, unit, .. }, true) = (&row.access, row.is_calculated()) else {
+            return None;
+        };
+        let meant = |value: f64| value.is_finite() || (row.may_be_nan && value.is_nan());
+        let (i, value) = at
+            .values(model)
+            .enumerate()
+            .find(|(_, value)| !meant(*value))?;
+        let name = row.element_name(i);
+        Some(format!(
+            "{name} = {value} {}, expected a finite value",
+            unit.name
+        ))
+    };
+    M::DESCRIPTION
+        .variables
+        .iter()
+        .find_map(wrong)
+        .unwrap_or_default()
+}
