@@ -1,9 +1,10 @@
 //! One axis: slip, midpoint, clamp, reset.
 
 use crate::bounds::Interval;
-use crate::midpoint::{self, Midpoint, Sample};
+use crate::law::{Felt, Spring};
+use crate::midpoint::{self, Midpoint, Sample, slower};
 use crate::real::{floored, sat};
-use crate::{Bounds, Gains, Law, Motion, Real, Settings, retune, storage};
+use crate::{Bounds, Gains, Motion, Real, Settings, retune, storage};
 
 /// One axis of the law between two ticks.
 ///
@@ -120,16 +121,8 @@ impl Axis {
                 ..self
             },
             q,
-            e: slipped(settings.law, &gains, e),
+            e: storage::slipped(settings.law, &gains, e),
         }
-    }
-}
-
-/// Under `passive_bounded`, |K K_P e| ≤ f_max: beyond it the spring slips, and q_n with it.
-fn slipped(law: Law, gains: &Gains, e: Real) -> Real {
-    match law {
-        Law::PassiveBounded => sat(e, gains.f_max / (gains.K * gains.K_P)),
-        _ => e,
     }
 }
 
@@ -235,15 +228,15 @@ impl Proposal {
 
     /// v_m (m/s) if the robot gets the force `f` (N), and whether the bounds kept it back.
     fn v_m(&self, f: Real, settings: &Settings) -> (Real, bool) {
-        match settings.law {
-            Law::PassiveApplied | Law::PassiveBounded if f != self.f_demand() => {
+        match settings.law.row().felt {
+            Felt::Delivered if f != self.f_demand() => {
                 let (alpha, T) = (settings.reaction(), settings.T);
                 let y_s = f / self.damped.K;
                 let free = midpoint::driven(&self.damped, alpha, T, &self.sample, y_s);
                 let v_m = self.interval.keep(free);
                 (v_m, v_m != free)
             }
-            _ => (self.wish.v_m, self.held),
+            Felt::Delivered | Felt::Coupling | Felt::Nothing => (self.wish.v_m, self.held),
         }
     }
 
@@ -265,12 +258,15 @@ impl Proposal {
         let Self { damped, sample, .. } = &self;
         let T = settings.T;
         let (v_m, held) = self.v_m(f, settings);
-        let mut v_n = 2.0 * v_m - sample.v_n;
+        let mut v_n = midpoint::end(sample, v_m);
         if held {
             v_n = slower(v_n, v_m);
         }
-        if settings.law == Law::PassiveBounded && f != self.f_demand() {
-            v_n = slower(v_n, midpoint::at_the_bound(damped, T, sample, f / damped.K));
+        match settings.law.row().spring {
+            Spring::Slips if f != self.f_demand() => {
+                v_n = slower(v_n, midpoint::at_the_bound(damped, T, sample, f / damped.K));
+            }
+            Spring::Slips | Spring::Limited | Spring::Free => {}
         }
         Committed {
             axis: Axis {
@@ -278,13 +274,8 @@ impl Proposal {
                 v_n: floored(v_n),
                 ..self.axis
             },
-            supplied: damped.K / settings.alpha * sample.f_h * v_m * T,
+            supplied: midpoint::supplied(damped, settings.alpha, T, sample, v_m),
             held,
         }
     }
-}
-
-/// `other` in place of `v` where it holds no more energy.
-fn slower(v: Real, other: Real) -> Real {
-    if other * other <= v * v { other } else { v }
 }

@@ -1,27 +1,70 @@
-//! Which reaction the nominal feels.
+//! The laws: one row each. Whatever depends on the law reads it from here.
 
 use crate::ParameterError;
+use crate::listed::{Text, laws};
 
 /// The laws. What is fed back to the nominal once the force is limited decides everything; the paper is silent on it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[repr(i32)]
 pub enum Law {
-    /// The admittance filter alone (eq:admittance_standard): no reaction on the nominal. Sticks to walls.
+    /// The admittance filter alone (eq:admittance_standard).
     Standard = 1,
-    /// The paper's law (eq:obs_dyn, eq:dob_input): the nominal feels the unlimited y, also while the robot feels less.
-    /// Creates energy once saturated.
+    /// The paper's law (eq:obs_dyn, eq:dob_input), with y as it was before any limit.
     Passive = 2,
-    /// The nominal feels the limited force divided by K: passive in continuous time, with the storage Φ of
-    /// [`storage`](crate::storage), but the spring winds up and sticks to walls.
+    /// The same with what the limits left of y. Passive in continuous time, with the storage Φ of
+    /// [`storage`](crate::storage).
     PassiveApplied = 3,
-    /// The nominal feels the limited force, and the spring slips where it alone would exceed the limit: passive, and
-    /// |K K_P e_nr| ≤ f_max always.
+    /// The same with a spring that slips. Passive, also sampled, and |K K_P e_nr| ≤ f_max always.
     PassiveBounded = 4,
-    /// Natural admittance (Dohring and Newman), one axis: [`natural`](crate::natural).
+    /// Natural admittance control (Dohring and Newman): [`natural`](crate::natural).
     Natural = 5,
-    /// Sliding-mode inner loop under a standard proxy (Kikuuwe), one axis: [`sliding_mode`](crate::sliding_mode).
+    /// Sliding-mode inner loop under a standard proxy (Kikuuwe): [`sliding_mode`](crate::sliding_mode).
     SlidingMode = 6,
+}
+
+/// What a law is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Row {
+    /// Name in interfaces.
+    pub name: &'static str,
+    /// What it is, in half a sentence.
+    pub text: &'static str,
+    /// What its nominal feels.
+    pub felt: Felt,
+    /// How its spring behaves where it alone would exceed the limit.
+    pub spring: Spring,
+    /// Whether the tank is kept ≥ 0. Under the other laws it is observed.
+    pub keeps_tank: bool,
+    /// Whether [`Admittance`](crate::Admittance) computes it, and an arm can have it. The others are comparators, on one
+    /// axis.
+    pub offered: bool,
+    /// Whether it can be run through a position drive: [`servo`](crate::servo).
+    pub servo: bool,
+    /// Whether its model has the mass M_n, and not the robot's own.
+    pub nominal_mass: bool,
+}
+
+/// What the nominal feels of the coupling.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Felt {
+    /// Nothing.
+    Nothing,
+    /// alpha y, whatever the robot gets.
+    Coupling,
+    /// alpha f/K with the force f that the robot gets.
+    Delivered,
+}
+
+/// How the coupling's spring behaves where it alone would exceed f_max.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Spring {
+    /// It knows no limit: ½ k e² whatever its extension.
+    Free,
+    /// Its force stays at the limit while its extension grows: Φ(e).
+    Limited,
+    /// It slips, and q_n with it: |k e| ≤ f_max.
+    Slips,
 }
 
 impl Law {
@@ -35,6 +78,79 @@ impl Law {
         Self::SlidingMode,
     ];
 
+    /// `1 (standard), 2 (passive), …`: all laws.
+    pub const NUMBERED: &str = const { &Text::numbered(&laws!(_ if true)) }.as_str();
+    /// Likewise those that are [offered](Row::offered).
+    pub const OFFERED: &str = const { &Text::numbered(&laws!(row if row.offered)) }.as_str();
+    /// Likewise those that have a [servo form](Row::servo).
+    pub const WITH_SERVO_FORM: &str = const { &Text::numbered(&laws!(row if row.servo)) }.as_str();
+
+    /// What it is: the table of the laws.
+    pub const fn row(self) -> &'static Row {
+        match self {
+            Self::Standard => &Row {
+                name: "standard",
+                text: "admittance filter alone, no reaction on the nominal; sticks to walls",
+                felt: Felt::Nothing,
+                spring: Spring::Free,
+                keeps_tank: false,
+                offered: true,
+                servo: true,
+                nominal_mass: true,
+            },
+            Self::Passive => &Row {
+                name: "passive",
+                text: "the paper's law: the nominal feels the unlimited coupling; creates energy once saturated",
+                felt: Felt::Coupling,
+                spring: Spring::Free,
+                keeps_tank: false,
+                offered: true,
+                servo: false, // what a drive measures is what was delivered
+                nominal_mass: true,
+            },
+            Self::PassiveApplied => &Row {
+                name: "passive_applied",
+                text: "the nominal feels what the limits leave of the force; the spring winds up and sticks to walls",
+                felt: Felt::Delivered,
+                spring: Spring::Limited,
+                keeps_tank: false,
+                offered: true,
+                servo: true,
+                nominal_mass: true,
+            },
+            Self::PassiveBounded => &Row {
+                name: "passive_bounded",
+                text: "the nominal feels the limited force and the spring slips at the limit; passive and bounded",
+                felt: Felt::Delivered,
+                spring: Spring::Slips,
+                keeps_tank: true,
+                offered: true,
+                servo: true,
+                nominal_mass: true,
+            },
+            Self::Natural => &Row {
+                name: "natural",
+                text: "natural admittance control (Dohring and Newman), to compare with: comparator.M in place of M_n; sticks to walls",
+                felt: Felt::Nothing,
+                spring: Spring::Free,
+                keeps_tank: false,
+                offered: false,
+                servo: false,
+                nominal_mass: false,
+            },
+            Self::SlidingMode => &Row {
+                name: "sliding_mode",
+                text: "sliding-mode position control under a standard proxy (Kikuuwe), to compare with; sticks to walls",
+                felt: Felt::Nothing,
+                spring: Spring::Slips, // the one between inner proxy and robot
+                keeps_tank: false,
+                offered: false,
+                servo: false,
+                nominal_mass: true,
+            },
+        }
+    }
+
     /// Number in interfaces, from 1.
     pub const fn number(self) -> i32 {
         self as i32
@@ -42,24 +158,7 @@ impl Law {
 
     /// Name in interfaces.
     pub const fn name(self) -> &'static str {
-        match self {
-            Self::Standard => "standard",
-            Self::Passive => "passive",
-            Self::PassiveApplied => "passive_applied",
-            Self::PassiveBounded => "passive_bounded",
-            Self::Natural => "natural",
-            Self::SlidingMode => "sliding_mode",
-        }
-    }
-
-    /// Whether it is there to be compared with, on one axis, and not one of [`Admittance`](crate::Admittance)'s.
-    pub const fn is_comparator(self) -> bool {
-        matches!(self, Self::Natural | Self::SlidingMode)
-    }
-
-    /// Whether [`Admittance`](crate::Admittance) computes it.
-    pub const fn is_offered(self) -> bool {
-        !self.is_comparator()
+        self.row().name
     }
 }
 

@@ -10,7 +10,7 @@
 //! A held force does f·Δq of work whatever the path, so this is exact, one sample later: at t_{k+1}, after the slip.
 //! The ports are (f_h ; K v_n/alpha) and (dq ; −tau_a).
 //!
-//! Under `passive_bounded` the tank is *kept* ≥ 0, and with it G ≤ E_0, for every motion within the [`Reach`]:
+//! Under a law that keeps its tank ([`Row::keeps_tank`](crate::law::Row::keeps_tank)) it is held ≥ 0, and with it G ≤ E_0, for every motion within the [`Reach`]:
 //! 1. looking ahead, [`share`](Ledger::share) says how much of a force the tank covers whatever the robot does;
 //! 2. settling, [`settle`](Ledger::settle) gives up the spring as far as it must so that what did happen is paid for. A motion beyond the reach may leave a debt, E < 0; there is no force until it is repaid.
 //!
@@ -18,7 +18,7 @@
 //!
 //! With alpha = 0 there is no such port and no storage: [`Ledger::is_defined`] says so, and all values are 0.
 
-use crate::{Law, Reach, Real, Settings, budget, real};
+use crate::{Reach, Real, Settings, budget, real};
 use nalgebra::SVector;
 
 /// The ledger of N coordinates with one tank.
@@ -75,7 +75,7 @@ impl<const N: usize> Ledger<N> {
         let defined = settings.alpha > 0.0;
         Self {
             defined,
-            enforced: defined && settings.law == Law::PassiveBounded,
+            enforced: defined && settings.law.row().keeps_tank,
             delayed: settings.delayed,
             T: settings.T,
             E_0: settings.E_0,

@@ -51,7 +51,8 @@
 //!
 //! | module | what |
 //! |---|---|
-//! | [`law`] | which reaction the nominal feels: the laws by number and name |
+//! | [`law`] | the laws, one row each: number, name, what the nominal feels, how the spring behaves |
+//! | [`listed`] | laws as messages list them |
 //! | [`parameters`] | [`Settings`], [`Gains`], their checks and the error that names the culprit |
 //! | [`real`] | the number: double or single precision, and its functions |
 //! | [`motion`] | backward difference, low pass |
@@ -89,6 +90,7 @@ pub mod comparator;
 pub mod hand;
 pub mod law;
 pub mod ledger;
+pub mod listed;
 pub mod midpoint;
 pub mod motion;
 pub mod natural;

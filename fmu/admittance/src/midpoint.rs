@@ -72,3 +72,18 @@ pub fn at_the_bound(gains: &Gains, T: Real, sample: &Sample, y_s: Real) -> Real 
     let Sample { e, dq, .. } = *sample;
     (y_s - gains.K_P * e) / (1.0 + gains.K_P * T / 2.0) + dq
 }
+
+/// Nominal velocity at the end of a sample over which its mean is `v_m` (m/s): v_n⁺ = 2 v_m − v_n.
+pub fn end(sample: &Sample, v_m: Real) -> Real {
+    2.0 * v_m - sample.v_n
+}
+
+/// `other` in place of the velocity `v` where it holds no more energy.
+pub fn slower(v: Real, other: Real) -> Real {
+    if other * other <= v * v { other } else { v }
+}
+
+/// Energy (K/alpha) f_h v_m T that the human's port brings in a sample, J. Not finite for alpha = 0.
+pub fn supplied(gains: &Gains, alpha: Real, T: Real, sample: &Sample, v_m: Real) -> Real {
+    gains.K / alpha * sample.f_h * v_m * T
+}

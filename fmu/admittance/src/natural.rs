@@ -21,7 +21,7 @@
 //! r = K/(M K_P): see [`least_damping`], the tuning rule for a passive port (f_h ; dq).
 //!
 //! Sampled (T; dq the backward difference; e = q_d − q; the model by the midpoint rule, the coupling as in
-//! [`midpoint`](crate::midpoint)):
+//! [`midpoint`]):
 //!
 //! ```text
 //! v_m = v_d + T(f_h − D_n dq)/(2 M),   v_d⁺ = 2 v_m − v_d,   q_d⁺ = q_d + T v_m
@@ -33,6 +33,7 @@
 //! and q_d runs away as ½ f_h t²/M: it sticks, longer than `standard`.
 
 use crate::comparator::{self, Tick};
+use crate::midpoint::{self, Sample};
 use crate::parameters::{POSITIVE, check};
 use crate::real::{self, floored, sat};
 use crate::{Gains, Motion, ParameterError, Real, Settings};
@@ -81,9 +82,7 @@ impl Natural {
 
     /// One tick at position `q` (m) with the human's force `f_h` (N); the first one engages with q_d = q, v_d = 0.
     pub fn step(&mut self, q: Real, f_h: Real) -> Tick {
-        let Gains {
-            D_n, K, K_P, f_max, ..
-        } = self.gains;
+        let Gains { D_n, K, f_max, .. } = self.gains;
         let T = self.settings.T;
         self.motion = self.motion.sensed(q, &self.settings);
         let dq = self.motion.dq();
@@ -91,11 +90,17 @@ impl Natural {
         let e = q_d - q;
 
         let f_v = -D_n * dq;
+        let sample = Sample {
+            e,
+            v_n: v_d,
+            dq,
+            f_h,
+        };
+        // Not midpoint::driven, which rounds otherwise: nothing on the left damps, so that T is not divided by and taken back.
         let v_m = v_d + T * (f_h + f_v) / (2.0 * self.M);
-        let y = (v_m - dq) + K_P * (e + T * (v_m - dq) / 2.0);
-        let f_demand = f_v + K * y;
+        let f_demand = f_v + K * midpoint::coupling(&self.gains, T, &sample, v_m);
 
-        self.v_d = floored(2.0 * v_m - v_d);
+        self.v_d = floored(midpoint::end(&sample, v_m));
         self.q_d = Some(q_d + T * v_m);
         Tick {
             f: sat(f_demand, f_max),

@@ -1,5 +1,6 @@
 //! Parameters, checked when a law is built.
 
+use crate::law::Felt;
 use crate::{Law, Real};
 use core::fmt;
 
@@ -10,7 +11,7 @@ pub struct Settings {
     /// The law.
     pub law: Law,
     /// Damper between y (a velocity) and the reaction on the nominal (a force), N·s/m, ≥ 0. The paper adds K⁻¹tau_a to
-    /// a force (eq:obs_dyn), which hides a unit damper: 1 is the paper. [`Law::Standard`] has no reaction whatever it is.
+    /// a force (eq:obs_dyn), which hides a unit damper: 1 is the paper. It does not matter where the nominal feels nothing.
     pub alpha: Real,
     /// Sample period, s.
     pub T: Real,
@@ -100,42 +101,29 @@ impl fmt::Display for ParameterError {
             Self::NotOffered(law) => {
                 write!(
                     f,
-                    "law = {} ({}) is a comparator, for one axis, and not offered here: expected ",
+                    "law = {} ({}) is a comparator, for one axis, and not offered here: expected {}",
                     law.number(),
-                    law.name()
-                )?;
-                offered(f)
+                    law.name(),
+                    Law::OFFERED
+                )
             }
             Self::NoServoForm(law) => {
                 write!(
                     f,
-                    "law = {} ({}) has no servo form: expected 1 (standard), 3 (passive_applied), 4 (passive_bounded)",
+                    "law = {} ({}) has no servo form: expected {}",
                     law.number(),
-                    law.name()
+                    law.name(),
+                    Law::WITH_SERVO_FORM
                 )
             }
             Self::UnknownLaw(number) => {
-                write!(f, "law = {number}: expected ")?;
-                offered(f)
+                write!(f, "law = {number}: expected {}", Law::OFFERED)
             }
         }
     }
 }
 
 impl core::error::Error for ParameterError {}
-
-/// `1 (standard), 2 (passive), …`
-fn offered(f: &mut fmt::Formatter<'_>) -> fmt::Result {
-    for (i, law) in Law::ALL
-        .into_iter()
-        .filter(|law| law.is_offered())
-        .enumerate()
-    {
-        let separator = if i == 0 { "" } else { ", " };
-        write!(f, "{separator}{} ({})", law.number(), law.name())?;
-    }
-    Ok(())
-}
 
 /// A range: what it is called and whether a value lies in it. NaN lies in none.
 pub type Range = (&'static str, fn(Real) -> bool);
@@ -182,7 +170,7 @@ impl Settings {
     /// # Errors
     /// The first parameter out of its range, or a law that is not offered.
     pub fn check(&self) -> Result<(), ParameterError> {
-        if !self.law.is_offered() {
+        if !self.law.row().offered {
             return Err(ParameterError::NotOffered(self.law));
         }
         check(
@@ -203,12 +191,11 @@ impl Settings {
         (self.tuning_time / self.T + 0.5) as u32
     }
 
-    /// The damper through which the nominal feels y, N·s/m: alpha, or 0 under [`Law::Standard`].
-    pub fn reaction(&self) -> Real {
-        if self.law == Law::Standard {
-            0.0
-        } else {
-            self.alpha
+    /// The damper through which the nominal feels y, N·s/m: alpha, or 0 where it feels nothing.
+    pub const fn reaction(&self) -> Real {
+        match self.law.row().felt {
+            Felt::Nothing => 0.0,
+            Felt::Coupling | Felt::Delivered => self.alpha,
         }
     }
 }

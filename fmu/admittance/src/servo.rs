@@ -43,8 +43,10 @@
 //! within the sample, so tau_m Δq is its work up to K a² T³/12 at an acceleration a; the true work is the smaller one.
 //! The torque is the drive's, so the law cannot withhold it: the tank is observed, not enforced.
 
-use crate::real::{self, floored, sat};
-use crate::{Gains, Law, Motion, ParameterError, Real, Settings, storage};
+use crate::law::Spring;
+use crate::midpoint::{self, Sample, slower};
+use crate::real::{self, floored};
+use crate::{Gains, Motion, ParameterError, Real, Settings, storage};
 
 /// The law in servo form between two ticks, one axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -99,7 +101,7 @@ impl Servo {
     pub fn new(settings: Settings, gains: Gains) -> Result<Self, ParameterError> {
         settings.check()?;
         gains.check(None)?;
-        if settings.law == Law::Passive {
+        if !settings.law.row().servo {
             return Err(ParameterError::NoServoForm(settings.law));
         }
         let mut servo = Self {
@@ -148,35 +150,32 @@ impl Servo {
     /// One tick at position `q` (m), human force `f_h` (N) and `tau_m` (N), the mean of the drive's torque over the sample
     /// that ended; the first tick engages with q_n = q, v_n = 0 and its nominal does not feel `tau_m`.
     pub fn step(&mut self, q: Real, f_h: Real, tau_m: Real) -> Tick {
-        let Gains {
-            M_n,
-            D_n,
-            K,
-            K_P,
-            f_max,
-        } = self.gains;
-        let (alpha, T) = (self.settings.reaction(), self.settings.T);
+        let Self {
+            settings, gains, ..
+        } = *self;
+        let T = settings.T;
         self.motion = self.motion.sensed(q, &self.settings);
         let dq = self.motion.dq();
-        let bounded = self.settings.law == Law::PassiveBounded;
-        let e = match self.q_n {
-            Some(q_n) if bounded => sat(q_n - q, f_max / (K * K_P)),
-            Some(q_n) => q_n - q,
-            None => 0.0,
-        };
+        let e = self
+            .q_n
+            .map_or(0.0, |q_n| storage::slipped(settings.law, &gains, q_n - q));
         let (q_n, v_n) = (q + e, self.v_n);
         self.settle(q, e, tau_m);
 
         let tau_m = if self.q_n.is_some() { tau_m } else { 0.0 };
-        let y = tau_m / K;
-        let v_m = (2.0 * M_n * v_n / T + f_h - alpha * y) / (2.0 * M_n / T + D_n);
-        let saturated = real::abs(tau_m) >= f_max;
-        let v_next = 2.0 * v_m - v_n;
-        let v_b = (y - K_P * e) / (1.0 + K_P * T / 2.0) + dq;
-        let reset = bounded && saturated && v_b * v_b <= v_next * v_next;
-        self.v_n = floored(if reset { v_b } else { v_next });
+        let sample = Sample { e, v_n, dq, f_h };
+        let y = tau_m / gains.K;
+        let v_m = midpoint::driven(&gains, settings.reaction(), T, &sample, y);
+        let saturated = real::abs(tau_m) >= gains.f_max;
+        let v_next = midpoint::end(&sample, v_m);
+        self.v_n = floored(match settings.law.row().spring {
+            Spring::Slips if saturated => {
+                slower(v_next, midpoint::at_the_bound(&gains, T, &sample, y))
+            }
+            Spring::Slips | Spring::Limited | Spring::Free => v_next,
+        });
         self.q_n = Some(q_n + T * v_m);
-        self.energy.supplied = K / self.settings.alpha * f_h * v_m * T;
+        self.energy.supplied = midpoint::supplied(&gains, settings.alpha, T, &sample, v_m);
         Tick {
             q_d: q_n + T * v_m / 2.0,
             dq_d: v_m,

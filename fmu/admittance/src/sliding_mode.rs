@@ -15,7 +15,7 @@
 //! overshoot as long as f_max can brake it, (q_n − q)/H² ≤ f_max/M.
 //!
 //! Sampled by implicit Euler in b, with the errors predicted for the middle of the sample as in
-//! [`midpoint`](crate::midpoint), de = v_m − dq and e = q_n − q + T de/2:
+//! [`midpoint`], de = v_m − dq and e = q_n − q + T de/2:
 //!
 //! ```text
 //! tau ∈ f_max Sgn(e + H de − b⁺ − H(b⁺ − b)/T),   tau = K((b⁺ − b)/T + K_P b⁺)
@@ -33,6 +33,7 @@
 //! The 2014 controller shapes the surface s further, for a faster return; the proxy outside it is the same.
 
 use crate::comparator::{self, Tick};
+use crate::midpoint::{self, Sample};
 use crate::parameters::{NOT_NEGATIVE, check};
 use crate::real::{floored, sat};
 use crate::{Gains, Motion, ParameterError, Real, Settings};
@@ -83,19 +84,19 @@ impl SlidingMode {
 
     /// One tick at position `q` (m) with the human's force `f_h` (N); the first one engages with q_n = q, v_n = 0, b = 0.
     pub fn step(&mut self, q: Real, f_h: Real) -> Tick {
-        let Gains {
-            M_n,
-            D_n,
-            K,
-            K_P,
-            f_max,
-        } = self.gains;
+        let Gains { K, K_P, f_max, .. } = self.gains;
         let (T, H) = (self.settings.T, self.H);
         self.motion = self.motion.sensed(q, &self.settings);
         let dq = self.motion.dq();
         let (q_n, v_n) = (self.q_n.unwrap_or(q), self.v_n);
 
-        let v_m = (2.0 * M_n * v_n / T + f_h) / (2.0 * M_n / T + D_n);
+        let sample = Sample {
+            e: q_n - q,
+            v_n,
+            dq,
+            f_h,
+        };
+        let v_m = midpoint::driven(&self.gains, 0.0, T, &sample, 0.0); // no reaction
         let de = v_m - dq;
         let e = q_n - q + T * de / 2.0;
         let b_slide = (T * (e + H * de) + H * self.b) / (T + H);
@@ -103,14 +104,14 @@ impl SlidingMode {
         let f = sat(f_demand, f_max);
 
         self.b = floored((self.b + T * f / K) / (1.0 + K_P * T));
-        self.v_n = floored(2.0 * v_m - v_n);
+        self.v_n = floored(midpoint::end(&sample, v_m));
         self.q_n = Some(q_n + T * v_m);
         Tick {
             f,
             f_demand,
             q_n,
             dq_n: v_n,
-            e_nr: q_n - q,
+            e_nr: sample.e,
             dq,
         }
     }

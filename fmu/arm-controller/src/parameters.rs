@@ -2,6 +2,7 @@
 
 use crate::ArmController;
 use crate::variables::{JOINT, TASK};
+use admittance::law::Spring;
 use admittance::{Bounds, Gains, Law, ParameterError, Reach, Settings};
 use arm_law::arm_law::{Parameters, Space};
 use arm_law::joint_space::JointParameters;
@@ -113,7 +114,7 @@ impl ArmController {
         })
     }
 
-    /// f_max belongs to `passive_bounded` alone: the other laws ask for what they ask for and live on the joints' limits.
+    /// f_max belongs to a spring that slips: the other laws ask for what they ask for and live on the joints' limits.
     pub(crate) fn gains(&self, law: Law) -> Result<[Gains; 3], Refusal> {
         let gains = std::array::from_fn(|i| Gains {
             M_n: self.Lambda_n[i],
@@ -125,9 +126,9 @@ impl ArmController {
         for (i, gains) in (1..).zip(&gains) {
             gains.check(Some(i)).map_err(refusal)?;
         }
-        Ok(match law {
-            Law::PassiveBounded => gains,
-            _ => gains.map(|gains| Gains {
+        Ok(match law.row().spring {
+            Spring::Slips => gains,
+            Spring::Free | Spring::Limited => gains.map(|gains| Gains {
                 f_max: f64::INFINITY,
                 ..gains
             }),

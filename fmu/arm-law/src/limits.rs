@@ -1,5 +1,7 @@
 //! What the joints deliver of the torque that they are asked for.
 
+use admittance::law::Felt;
+use admittance::listed::{Text, laws};
 use admittance::parameters::{LIMIT, POSITIVE, check};
 use admittance::{Law, ParameterError, Real, real};
 use nalgebra::Vector3;
@@ -48,6 +50,14 @@ impl TorqueLimiting {
     }
 }
 
+/// Why some laws do not clip.
+const SCALE_ONLY: &str = const {
+    &Text::new("1 (scale) under the laws ")
+        .and_names(&laws!(row if matches!(row.felt, Felt::Delivered)))
+        .and(": their nominal feels one share of the force")
+}
+.as_str();
+
 impl Limits {
     /// Whether these can be used.
     ///
@@ -66,21 +76,23 @@ impl Limits {
         Ok(())
     }
 
-    /// Whether these suit a law. Under `passive_applied` and `passive_bounded` the nominal feels what the robot gets, as one
-    /// share of what it was to get; no share describes joints that are clipped one by one.
+    /// Whether these suit a law. Where the nominal feels what the robot gets, it feels one share of what the robot was to
+    /// get; no share describes joints that are clipped one by one.
     ///
     /// # Errors
-    /// Clipping under one of these two laws.
+    /// Clipping under such a law.
     pub fn check_under(&self, law: Law) -> Result<(), ParameterError> {
-        if self.limiting == TorqueLimiting::Clip && !matches!(law, Law::Standard | Law::Passive) {
-            return Err(ParameterError::OutOfRange {
+        match (self.limiting, law.row().felt) {
+            (TorqueLimiting::Clip, Felt::Delivered) => Err(ParameterError::OutOfRange {
                 name: "torque_limiting",
                 axis: None,
-                value: 2.0,
-                expected: "1 (scale) under the laws passive_applied and passive_bounded: their nominal feels one share of the force",
-            });
+                value: self.limiting as i32 as Real,
+                expected: SCALE_ONLY,
+            }),
+            (TorqueLimiting::Clip, Felt::Nothing | Felt::Coupling) | (TorqueLimiting::Scale, _) => {
+                Ok(())
+            }
         }
-        Ok(())
     }
 
     /// What is delivered of `tau` (N·m), which is finite.

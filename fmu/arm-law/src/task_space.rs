@@ -149,7 +149,7 @@ impl TaskSpace {
                     let inverse = pose.J.transpose().try_inverse();
                     inverse.map_or(f, |inverse| inverse * tau)
                 }
-                _ => f,
+                TorqueLimiting::Clip | TorqueLimiting::Scale => f,
             },
             tau,
             tau_demand: pose.J.tr_mul(&f_demand),

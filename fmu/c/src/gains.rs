@@ -1,6 +1,7 @@
 //! What may be changed while the law runs.
 
 use crate::Real;
+use admittance::law::Spring;
 use admittance::{Bounds, Law};
 use nalgebra::Vector3;
 
@@ -103,11 +104,11 @@ impl From<AxisGains> for admittance::Gains {
     }
 }
 
-/// The gains that a law uses: f_max of the arm belongs to `passive_bounded` alone.
+/// The gains that a law uses: f_max of the arm belongs to a spring that slips.
 pub(crate) fn limited_under(law: Law, gains: admittance::Gains) -> admittance::Gains {
-    match law {
-        Law::PassiveBounded => gains,
-        _ => admittance::Gains {
+    match law.row().spring {
+        Spring::Slips => gains,
+        Spring::Free | Spring::Limited => admittance::Gains {
             f_max: Real::INFINITY,
             ..gains
         },

@@ -48,9 +48,6 @@ impl Default for Refusal {
     }
 }
 
-/// Laws that are offered, for messages.
-pub(crate) const LAWS: &str = "1 (standard), 2 (passive), 3 (passive_applied), 4 (passive_bounded)";
-
 /// A value out of its range, inside the library.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Bad {
@@ -90,7 +87,7 @@ impl Bad {
         error: ParameterError,
         rename: fn(&'static str) -> &'static str,
     ) -> Self {
-        let law = |law: Law| Self::choice("law", law.number(), LAWS);
+        let law = |law: Law| Self::choice("law", law.number(), Law::OFFERED);
         match error {
             ParameterError::OutOfRange {
                 name,
@@ -105,7 +102,7 @@ impl Bad {
             },
             ParameterError::NotOffered(comparator) => law(comparator),
             ParameterError::NoServoForm(without) => law(without),
-            ParameterError::UnknownLaw(number) => Self::choice("law", number, LAWS),
+            ParameterError::UnknownLaw(number) => Self::choice("law", number, Law::OFFERED),
         }
     }
 }

@@ -143,19 +143,19 @@ impl Controller {
         comparator: Comparator,
         limits: Limits,
     ) -> Result<Self, ParameterError> {
-        if settings.law.is_comparator() || form == Form::PositionServo {
+        if !settings.law.row().offered || form == Form::PositionServo {
             limits.check_none()?;
         }
-        Ok(match (settings.law, form) {
-            (Law::Passive | Law::Natural | Law::SlidingMode, Form::PositionServo) => {
+        if form == Form::PositionServo {
+            if !settings.law.row().servo {
                 return Err(ParameterError::NoServoForm(settings.law));
             }
-            (_, Form::PositionServo) => Self::Servo(Servo::new(settings, gains)?),
-            (Law::Natural, _) => Self::Natural(Natural::new(settings, gains, comparator.M)?),
-            (Law::SlidingMode, _) => {
-                Self::SlidingMode(SlidingMode::new(settings, gains, comparator.H)?)
-            }
-            _ => {
+            return Ok(Self::Servo(Servo::new(settings, gains)?));
+        }
+        Ok(match settings.law {
+            Law::Natural => Self::Natural(Natural::new(settings, gains, comparator.M)?),
+            Law::SlidingMode => Self::SlidingMode(SlidingMode::new(settings, gains, comparator.H)?),
+            Law::Standard | Law::Passive | Law::PassiveApplied | Law::PassiveBounded => {
                 let mut law = Admittance::new(settings, [gains])?
                     .reaching(limits.reach)?
                     .rated(Vector1::new(limits.f_rate))?;

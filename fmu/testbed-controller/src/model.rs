@@ -267,9 +267,10 @@ impl TestbedController {
 
     /// Sets `gain_warning` and says why when it becomes another one than 0.
     fn advise(&mut self, log: &mut Log<'_>) -> Result<(), Refusal> {
-        let mut advice = advise(&self.settings()?, &self.gains(), self.M_min);
+        let settings = self.settings()?;
+        let mut advice = advise(&settings, &self.gains(), self.M_min);
         advice.stiff_coupling &= self.form()? == Form::Torque; // else the coupling is the drive's
-        advice.light_nominal &= self.law != Law::Natural.number(); // which has comparator.M in place of M_n
+        advice.light_nominal &= settings.law.row().nominal_mass;
         let before = std::mem::replace(&mut self.gain_warning, advice.number());
         if ![0, before].contains(&self.gain_warning) {
             log.warning(format_args!("gain_warning: {}", advice.message()));
@@ -359,8 +360,7 @@ fn refusal(error: ParameterError) -> Refusal {
 /// `law = 9: expected 1 (standard), …`, with the comparators, which the other models do not have.
 #[cold]
 fn unknown_law(number: i32) -> Refusal {
-    let laws = Law::ALL.map(|law| format!("{} ({})", law.number(), law.name()));
-    Refusal(format!("law = {number}: expected {}", laws.join(", ")))
+    Refusal(format!("law = {number}: expected {}", Law::NUMBERED))
 }
 
 /// A limit of the interface, where 0 stands for none.

@@ -10,9 +10,10 @@ use crate::kinematics::Kinematics;
 use crate::nominal::transport::transported;
 use crate::nominal::{NominalArm, RigidBody};
 use admittance::bounds::{Bounds, Interval};
+use admittance::law::{Felt, Spring};
 use admittance::ledger::{Keep, Stored};
 use admittance::real::{floored, sat};
-use admittance::{Law, Motion, ParameterError, Real, Settings};
+use admittance::{Motion, ParameterError, Real, Settings};
 use nalgebra::{Matrix3, Vector3};
 
 /// The law in joint space between two ticks. It starts out of the loop; the first tick engages it with q_n = q, v_n = 0.
@@ -192,7 +193,7 @@ impl Joints {
             self.settings.law,
             &self.gains,
             &gains,
-            &slipped(self.settings.law, &self.gains, &(last.q_n - q)),
+            &stored::slipped(self.settings.law, &self.gains, &(last.q_n - q)),
             &v_n,
         );
         let state = State {
@@ -207,7 +208,7 @@ impl Joints {
             remaining: self.remaining.saturating_sub(1),
             bounds: self.bounds,
             state,
-            e: slipped(self.settings.law, &gains, &e),
+            e: stored::slipped(self.settings.law, &gains, &e),
         }
     }
 
@@ -228,10 +229,13 @@ impl Joints {
         } = proposal;
         let (q_n, v_n) = (sample.e + state.q, sample.v_n);
         let mut next = slower(&state.body, v_m * 2.0 - v_n, &v_m, &held);
-        if law == Law::PassiveBounded && *tau != tau_demand {
-            let v_b = midpoint::at_the_bound(&gains, T, &sample, &(tau / gains.K));
-            let limited = tau.zip_map(&tau_demand, |tau, asked| tau != asked);
-            next = slower(&state.body, next, &v_b, &limited);
+        match law.row().spring {
+            Spring::Slips if *tau != tau_demand => {
+                let v_b = midpoint::at_the_bound(&gains, T, &sample, &(tau / gains.K));
+                let limited = tau.zip_map(&tau_demand, |tau, asked| tau != asked);
+                next = slower(&state.body, next, &v_b, &limited);
+            }
+            Spring::Slips | Spring::Limited | Spring::Free => {}
         }
         self.gains = gains;
         self.remaining = proposal.remaining;
@@ -272,16 +276,6 @@ impl Joints {
     /// What stays fixed during a run.
     pub fn settings(&self) -> &Settings {
         &self.settings
-    }
-}
-
-/// Under `passive_bounded`, |K K_P e| ≤ tau_max on each joint: beyond it the spring slips, and q_n with it.
-fn slipped(law: Law, gains: &JointGains, e: &Vector3<Real>) -> Vector3<Real> {
-    match law {
-        Law::PassiveBounded => e.zip_zip_map(&gains.tau_max, &gains.K_P, |e, tau_max, K_P| {
-            sat(e, tau_max / (gains.K * K_P))
-        }),
-        _ => *e,
     }
 }
 
@@ -374,21 +368,19 @@ impl Proposal {
         &self.tau_demand
     }
 
-    /// What the joints ask for, N·m: under `passive_applied` and `passive_bounded` K y of each joint within ±tau_max, under
-    /// the other laws K y, which the caller's limits may cut as they like.
+    /// What the joints ask for, N·m: K y of each joint within ±tau_max where the nominal feels what is delivered, else K y,
+    /// which the caller's limits may cut as they like.
     pub fn tau(&self, settings: &Settings) -> Vector3<Real> {
-        match settings.law {
-            Law::PassiveApplied | Law::PassiveBounded => {
-                self.tau_demand.zip_map(&self.gains.tau_max, sat)
-            }
-            _ => self.tau_demand,
+        match settings.law.row().felt {
+            Felt::Delivered => self.tau_demand.zip_map(&self.gains.tau_max, sat),
+            Felt::Nothing | Felt::Coupling => self.tau_demand,
         }
     }
 
     /// v_m if the robot gets the torques `tau` (N·m).
     fn solution(&self, tau: &Vector3<Real>, settings: &Settings) -> Solution {
-        match settings.law {
-            Law::PassiveApplied | Law::PassiveBounded if *tau != self.tau_demand => {
+        match settings.law.row().felt {
+            Felt::Delivered if *tau != self.tau_demand => {
                 let (alpha, T) = (settings.reaction(), settings.T);
                 midpoint::driven(
                     alpha,
@@ -398,7 +390,7 @@ impl Proposal {
                     &self.intervals,
                 )
             }
-            _ => self.wish,
+            Felt::Delivered | Felt::Coupling | Felt::Nothing => self.wish,
         }
     }
 

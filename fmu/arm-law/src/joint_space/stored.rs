@@ -13,6 +13,11 @@ pub fn springs(law: Law, gains: &JointGains, e: &Vector3<Real>) -> Real {
     spring(0) + spring(1) + spring(2)
 }
 
+/// Position errors (rad) of springs that may have slipped: |k K_P e| ≤ tau_max on each joint.
+pub fn slipped(law: Law, gains: &JointGains, e: &Vector3<Real>) -> Vector3<Real> {
+    Vector3::from([0, 1, 2].map(|i| storage::slipped(law, &gains.of(i), e[i])))
+}
+
 /// Position errors (rad) and nominal velocities (rad/s) with which the gains `to` take over from the gains `from`.
 pub fn taken_over(
     law: Law,

@@ -5,7 +5,7 @@ use super::joint::{ArmJoint, ArmJointGains, ArmNominal};
 use super::supervision::ArmSupervision;
 use crate::Real;
 use crate::gains::{ArmGains, bounds, limited_under, or_none};
-use crate::refusal::{Bad, LAWS, truth};
+use crate::refusal::{Bad, truth};
 use admittance::hand::StiffHand;
 use admittance::{Law, ParameterError, Reach, Settings};
 use arm_law::arm_law::{Parameters, Space};
@@ -227,8 +227,8 @@ impl ArmParameters {
     /// The law's parameters.
     pub(crate) fn of_law(&self) -> Result<Parameters, Bad> {
         let settings = self.settings()?;
-        if !settings.law.is_offered() {
-            return Err(Bad::choice("law", self.law, LAWS));
+        if !settings.law.row().offered {
+            return Err(Bad::choice("law", self.law, Law::OFFERED));
         }
         let is_boxed = truth("p_n_box", self.p_n_box)?;
         let within = |speed, (low, high)| bounds(speed, is_boxed.then_some((low, high)));
