@@ -62,7 +62,7 @@ int main(void)
 }
 #endif
 
-static char line[4096];
+static char line[8192];
 static size_t used;
 
 static void put(char c)
@@ -102,12 +102,17 @@ static void expect(int good, const char *promise)
     end_line();
 }
 
-/* The Reals of an outputs structure stand before its Booleans and choices. */
-static void dump(const void *outputs, size_t reals, size_t end)
+/* Every output, in the order of the library's description of its structs. */
+static void dump(const void *outputs, exo_status (*describe)(size_t, exo_variable *))
 {
-    const char *from = outputs;
-    for (size_t i = 0; i < reals; i += sizeof(exo_real)) bits(from + i, sizeof(exo_real));
-    for (size_t i = reals; i < end; i += sizeof(int32_t)) bits(from + i, sizeof(int32_t));
+    exo_variable variable;
+    for (size_t n = 0; describe(n, &variable) == EXO_STATUS_OK; n++) {
+        if (variable.role != EXO_ROLE_OUTPUT) continue;
+        size_t size = variable.kind == EXO_KIND_INTEGER ? sizeof(int32_t) : sizeof(exo_real);
+        for (int i = 0; i < variable.count; i++) {
+            bits((const char *)outputs + variable.offset + (size_t)i * variable.stride, size);
+        }
+    }
     end_line();
 }
 
@@ -136,20 +141,20 @@ typedef struct {
 static void arm_tick(exo_arm_state *law, arm *robot, const exo_arm_parameters *parameters, const arm_case *which, int n)
 {
     static exo_arm_outputs out;
-    exo_arm_inputs in = {0};
+    exo_arm_inputs in;
     exo_refusal refusal;
+    exo_arm_inputs_defaults(&in);
     for (int i = 0; i < 3; i++) {
         in.q[i] = robot->q[i] + which->shake * triangle(97 * n);
         in.f_h[i] = (exo_real)(15.0 * triangle(n + 130 * i));
     }
-    in.ft_valid = 1;
     in.engage = n >= 80;
     in.hold = n >= 420 && n < 450;
-    in.signals.enable = in.signals.encoder_valid = 1;
-    in.signals.heartbeat = n;
-    in.signals.emergency_stop = n >= 560;
+    in.enable = 1;
+    in.heartbeat = n;
+    in.emergency_stop = n >= 560;
     expect(exo_arm_tick(law, &in, &out, &refusal) == EXO_STATUS_OK, "a tick of the arm is made");
-    dump(&out, offsetof(exo_arm_outputs, saturated), offsetof(exo_arm_outputs, debt) + sizeof(int32_t));
+    dump(&out, exo_arm_variable);
     for (int i = 0; i < 3; i++) {
         double torque = (double)out.tau_a[i] + 5.0 * triangle(n) - 8.0 * robot->dq[i];
         robot->dq[i] += (double)parameters->T * torque / 2.5;
@@ -169,17 +174,17 @@ static void run_arm(const arm_case *which)
     exo_arm_defaults(&parameters);
     parameters.law = which->law;
     parameters.space = which->space;
-    parameters.supervision.supervision = which->supervised;
-    parameters.supervision.init_time = (exo_real)0.0625;
-    parameters.supervision.engage_time = (exo_real)0.125;
+    parameters.supervision = which->supervised;
+    parameters.supervisor.init_time = (exo_real)0.0625;
+    parameters.supervisor.engage_time = (exo_real)0.125;
     for (int i = 0; i < 3; i++) parameters.tau_max[i] = 25;
     if (which->shake > 0.0) parameters.E_0 = (exo_real)0.0625;
     expect(exo_arm_init(&state, &parameters, &refusal) == EXO_STATUS_OK, "the arm's law begins");
 
     arm robot = home;
     for (int n = 0; n < 300; n++) arm_tick(&state, &robot, &parameters, which, n);
-    for (int i = 0; i < 3; i++) parameters.gains.K[i] *= 2;
-    expect(exo_arm_tune(&state, &parameters.gains, &refusal) == EXO_STATUS_OK, "other gains are taken");
+    for (int i = 0; i < 3; i++) parameters.K[i] *= 2;
+    expect(exo_arm_tune(&state, &parameters, &refusal) == EXO_STATUS_OK, "other gains are taken");
     arm before = robot;
     kept = state;
     for (int n = 300; n < 350; n++) arm_tick(&state, &robot, &parameters, which, n);
@@ -216,7 +221,7 @@ static void run_axis(int law, double shake)
     for (int n = 0; n < TICKS; n++) {
         exo_axis_inputs in = {q + shake * triangle(97 * n), (exo_real)(20.0 * triangle(n)), n >= 80, n >= 420 && n < 450};
         expect(exo_axis_tick(&state, &in, &out, &refusal) == EXO_STATUS_OK, "a tick of the axis is made");
-        dump(&out, offsetof(exo_axis_outputs, saturated), offsetof(exo_axis_outputs, debt) + sizeof(int32_t));
+        dump(&out, exo_axis_variable);
         /* A wall at 0.01 m. */
         double wall = q > 0.01 ? -2e4 * (q - 0.01) - 50.0 * dq : 0.0;
         dq += (double)parameters.T * ((double)out.tau_a + (double)in.tau_h + wall - 5.0 * dq) / 10.0;

@@ -53,6 +53,8 @@ pub fn header() -> Outcome<String> {
         .map_err(|error| found(&error))?;
     let bindings = cbindgen::Builder::new()
         .with_config(config)
+        .with_src(root().join("fmu/admittance/src/lib.rs"))
+        .with_src(root().join("fmu/arm-law/src/lib.rs"))
         .with_src(source().join("src/lib.rs"))
         .generate()
         .map_err(|error| found(&error))?;

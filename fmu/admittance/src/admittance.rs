@@ -3,8 +3,9 @@
 use crate::axes::{Axes, Committed, Request};
 use crate::bounds::Bounds;
 use crate::budget::{Reach, share_of_the_way};
-use crate::parameters::{LIMIT, check};
+use crate::parameters::{check, limit};
 use crate::{Gains, Ledger, ParameterError, Real, Settings};
+use declaration::range::POSITIVE;
 use nalgebra::SVector;
 
 /// The law for N axes: N = 1 is the testbed.
@@ -77,7 +78,10 @@ impl<const N: usize> Admittance<N> {
     /// The first value out of its range.
     pub fn rated(self, f_rate: SVector<Real, N>) -> Result<Self, ParameterError> {
         for (axis, f_rate) in (1..).zip(&f_rate) {
-            check((N > 1).then_some(axis), &[("f_rate", *f_rate, LIMIT)])?;
+            check(
+                (N > 1).then_some(axis),
+                &[("f_rate", limit(*f_rate), POSITIVE)],
+            )?;
         }
         Ok(Self { f_rate, ..self })
     }

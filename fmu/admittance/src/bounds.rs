@@ -11,8 +11,10 @@
 //! | hold | 0 |
 //! | request | ±v, for one tick: to brake before a hold |
 
-use crate::parameters::{LIMIT, NOT_NAN, check};
+use crate::parameters::{check, limit};
 use crate::{ParameterError, Real, real};
+use declaration::check::Expected;
+use declaration::range::{FINITE, POSITIVE};
 
 /// Limits of one axis, infinite where there are none.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -46,9 +48,9 @@ impl Bounds {
         check(
             axis,
             &[
-                ("speed_max", self.speed, LIMIT),
-                ("q_min", self.q_min, NOT_NAN),
-                ("q_max", self.q_max, NOT_NAN),
+                ("speed_max", limit(self.speed), POSITIVE),
+                ("q_min", -limit(-self.q_min), FINITE),
+                ("q_max", limit(self.q_max), FINITE),
             ],
         )?;
         if self.q_min < self.q_max {
@@ -58,7 +60,7 @@ impl Bounds {
                 name: "q_max",
                 axis,
                 value: self.q_max,
-                expected: "a value greater than the least one",
+                expected: Expected::Text("a value greater than the least one"),
             })
         }
     }
@@ -76,6 +78,42 @@ impl Bounds {
             high: real::max(0.0, real::min((self.q_max - q_n) / T, self.speed)),
         }
     }
+}
+
+/// A limit of an interface, where 0 stands for none.
+pub fn or_none(limit: Real) -> Real {
+    if limit == 0.0 { Real::INFINITY } else { limit }
+}
+
+/// Limits of `N` axes from the parameters of an interface: a speed of 0 is none, and the box counts only if `is_boxed`.
+///
+/// # Errors
+/// The first largest position, by the name `name`, that does not exceed the least one.
+pub fn boxed<const N: usize>(
+    name: &'static str,
+    is_boxed: bool,
+    q_min: &[Real; N],
+    q_max: &[Real; N],
+    speed: &[Real; N],
+) -> Result<[Bounds; N], ParameterError> {
+    let mut bounds = speed.map(|speed| Bounds {
+        speed: or_none(speed),
+        ..Bounds::default()
+    });
+    if is_boxed {
+        for (i, bounds) in bounds.iter_mut().enumerate() {
+            (bounds.q_min, bounds.q_max) = (q_min[i], q_max[i]);
+            if q_min[i] >= q_max[i] {
+                return Err(ParameterError::OutOfRange {
+                    name,
+                    axis: (N > 1).then_some(i + 1),
+                    value: q_max[i],
+                    expected: Expected::Text("a value greater than the least one"),
+                });
+            }
+        }
+    }
+    Ok(bounds)
 }
 
 /// Velocities that the nominal may have over a sample, m/s. They contain 0.

@@ -5,8 +5,9 @@
 //! the human's port brings minus what the nominal keeps, its damping, and the spring, which can be given up afterwards.
 //! [`share`] finds the share of the force for which the tank covers that. `docs/passivity.md` has the argument.
 
-use crate::parameters::{LIMIT, POSITIVE, check};
+use crate::parameters::{check, limit};
 use crate::{ParameterError, Real, real};
+use declaration::range::POSITIVE;
 use nalgebra::SVector;
 
 /// How far the robot can move within a sample: the motions for which passivity is promised, in the coordinates in which
@@ -43,7 +44,10 @@ impl<const N: usize> Reach<N> {
         for (axis, (v_max, a_max)) in (1..).zip(self.v_max.iter().zip(&self.a_max)) {
             check(
                 of(axis),
-                &[("v_max", *v_max, POSITIVE), ("a_max", *a_max, LIMIT)],
+                &[
+                    ("v_max", *v_max, POSITIVE),
+                    ("a_max", limit(*a_max), POSITIVE),
+                ],
             )?;
         }
         Ok(())

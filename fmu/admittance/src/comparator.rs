@@ -8,8 +8,9 @@
 //! Neither has a reaction on its model, so there is no storage function with the robot's port and no ledger: where the
 //! four laws show an energy, a comparator shows 0. Both are for one axis.
 
-use crate::parameters::{NOT_NEGATIVE, POSITIVE, check};
+use crate::parameters::check;
 use crate::{ParameterError, Real, Settings};
+use declaration::range::{NOT_NEGATIVE, POSITIVE};
 
 /// What a comparator did at a tick; every value is the one at t_k.
 #[derive(Clone, Copy, Debug, PartialEq)]

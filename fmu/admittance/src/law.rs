@@ -2,6 +2,7 @@
 
 use crate::ParameterError;
 use crate::listed::{Text, laws};
+use declaration::{Enumeration, Item};
 
 /// The laws. What is fed back to the nominal once the force is limited decides everything; the paper is silent on it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -67,7 +68,52 @@ pub enum Spring {
     Slips,
 }
 
+/// The items of a choice among the first `N` laws.
+const fn items<const N: usize>() -> [Item; N] {
+    let mut items = [Law::Standard.item(); N];
+    let mut i = 0;
+    while i < N {
+        items[i] = Law::ALL[i].item();
+        i += 1;
+    }
+    items
+}
+
+const ABOUT: &str = "Admittance law: which reaction the nominal feels once the force is limited";
+
+/// The type of `law` where all laws are offered: on one axis.
+pub const LAW: Enumeration = Enumeration {
+    name: "Law",
+    about: ABOUT,
+    items: &items::<{ Law::ALL.len() }>(),
+};
+
+/// The type of `law` where the comparators are not.
+pub const OFFERED_LAW: Enumeration = Enumeration {
+    name: "Law",
+    about: ABOUT,
+    items: &items::<{ offered() }>(),
+};
+
+/// How many laws are offered: the first ones.
+const fn offered() -> usize {
+    let mut n = 0;
+    while n < Law::ALL.len() && Law::ALL[n].row().offered {
+        n += 1;
+    }
+    n
+}
+
 impl Law {
+    /// The law as an item of a choice.
+    const fn item(self) -> Item {
+        Item {
+            value: self.number(),
+            name: self.name(),
+            about: self.row().text,
+        }
+    }
+
     /// All laws, in the order of their numbers.
     pub const ALL: [Self; 6] = [
         Self::Standard,

@@ -94,6 +94,8 @@ pub mod listed;
 pub mod midpoint;
 pub mod motion;
 pub mod natural;
+pub mod one_axis;
+pub mod origin;
 pub mod parameters;
 pub mod real;
 pub mod retune;

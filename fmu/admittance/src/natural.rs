@@ -34,9 +34,10 @@
 
 use crate::comparator::{self, Tick};
 use crate::midpoint::{self, Sample};
-use crate::parameters::{POSITIVE, check};
+use crate::parameters::check;
 use crate::real::{self, floored, sat};
 use crate::{Gains, Motion, ParameterError, Real, Settings};
+use declaration::range::POSITIVE;
 
 /// The controller between two ticks.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -3,6 +3,9 @@
 use crate::law::Felt;
 use crate::{Law, Real};
 use core::fmt;
+use declaration::check::{self, Expected, Objection};
+use declaration::range::{NOT_NEGATIVE, POSITIVE, Range};
+use declaration::{Causality, Rows};
 
 /// What all axes share and what stays fixed during a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -68,8 +71,8 @@ pub enum ParameterError {
         axis: Option<usize>,
         /// The value.
         value: Real,
-        /// The range.
-        expected: &'static str,
+        /// What was expected.
+        expected: Expected,
     },
     /// A law of [`Law`] that [`Admittance`](crate::Admittance) does not compute: a comparator, which has one axis.
     NotOffered(Law),
@@ -125,22 +128,37 @@ impl fmt::Display for ParameterError {
 
 impl core::error::Error for ParameterError {}
 
-/// A range: what it is called and whether a value lies in it. NaN lies in none.
-pub type Range = (&'static str, fn(Real) -> bool);
-/// Any finite value.
-pub const FINITE: Range = ("a finite value", Real::is_finite);
-/// Greater than 0, finite.
-pub const POSITIVE: Range = ("a finite value greater than 0", |x| {
-    x > 0.0 && x.is_finite()
-});
-/// Not less than 0, finite.
-pub const NOT_NEGATIVE: Range = ("a finite value not less than 0", |x| {
-    x >= 0.0 && x.is_finite()
-});
-/// Any number, also infinite.
-pub const NOT_NAN: Range = ("a number", |x| !x.is_nan());
-/// Greater than 0, also infinite: a limit that does not limit.
-pub const LIMIT: Range = ("a value greater than 0", |x| x > 0.0);
+/// A limit that may be infinite, as one that a [`Range`] accepts.
+pub fn limit(limit: Real) -> Real {
+    limit.min(Real::MAX)
+}
+
+/// Whether every parameter of `of` lies in the range that its row says, under the row's name.
+///
+/// # Errors
+/// The first value out of its range.
+pub fn in_range<P: Rows>(of: &P) -> Result<(), ParameterError> {
+    Ok(check::first(of, P::ROWS, Causality::Parameter, false)?)
+}
+
+/// The same for what may be changed during a run.
+///
+/// # Errors
+/// The first value out of its range.
+pub fn tunable_in_range<P: Rows>(of: &P) -> Result<(), ParameterError> {
+    Ok(check::first(of, P::ROWS, Causality::Parameter, true)?)
+}
+
+impl From<Objection> for ParameterError {
+    fn from(objection: Objection) -> Self {
+        Self::OutOfRange {
+            name: objection.name,
+            axis: objection.element,
+            value: objection.value as Real,
+            expected: objection.expected,
+        }
+    }
+}
 
 /// Whether every value lies in its range: the name, value and range of the first that does not. `axis`, from 1, is for the
 /// message.
@@ -151,13 +169,13 @@ pub fn check(
     axis: Option<usize>,
     list: &[(&'static str, Real, Range)],
 ) -> Result<(), ParameterError> {
-    for &(name, value, (expected, contains)) in list {
-        if !contains(value) {
+    for &(name, value, range) in list {
+        if !range.contains(value.into()) {
             return Err(ParameterError::OutOfRange {
                 name,
                 axis,
                 value,
-                expected,
+                expected: Expected::Text(range.expected),
             });
         }
     }
@@ -234,7 +252,7 @@ impl Gains {
                 ("D_n", self.D_n, NOT_NEGATIVE),
                 ("K", self.K, POSITIVE),
                 ("K_P", self.K_P, POSITIVE),
-                ("f_max", self.f_max, LIMIT),
+                ("f_max", limit(self.f_max), POSITIVE),
             ],
         )
     }

@@ -47,6 +47,7 @@ use crate::law::Spring;
 use crate::midpoint::{self, Sample, slower};
 use crate::real::{self, floored};
 use crate::{Gains, Motion, ParameterError, Real, Settings, storage};
+use declaration::check::Expected;
 
 /// The law in servo form between two ticks, one axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -138,7 +139,9 @@ impl Servo {
                     name,
                     axis: None,
                     value,
-                    expected: "the value at the start, in servo form the drive has it too",
+                    expected: Expected::Text(
+                        "the value at the start, in servo form the drive has it too",
+                    ),
                 });
             }
         }

@@ -34,9 +34,10 @@
 
 use crate::comparator::{self, Tick};
 use crate::midpoint::{self, Sample};
-use crate::parameters::{NOT_NEGATIVE, check};
+use crate::parameters::check;
 use crate::real::{floored, sat};
 use crate::{Gains, Motion, ParameterError, Real, Settings};
+use declaration::range::NOT_NEGATIVE;
 
 /// The controller between two ticks.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -9,12 +9,12 @@
 //! use export::{Log, Model, Step};
 //!
 //! let mut controller = ArmController::default();
-//! controller.f_h = [0.0, 0.0, 4.0]; // upwards
+//! controller.inputs.f_h = [0.0, 0.0, 4.0]; // upwards
 //! controller.initialize(0.0, &mut Log::silent())?;
 //! controller.step(Step { start_time: 0.0, t: 0.0, h: 0.001 }, &mut Log::silent())?;
 //! assert_eq!(controller.tick, 0);
-//! assert!(controller.f_a[2] > 0.0 && controller.f_a[0] == 0.0);
-//! assert!(controller.tau_a[1] > 0.0); // positive pitch lifts
+//! assert!(controller.outputs.f_a[2] > 0.0 && controller.outputs.f_a[0] == 0.0);
+//! assert!(controller.outputs.tau_a[1] > 0.0); // positive pitch lifts
 //! # Ok::<(), export::Refusal>(())
 //! ```
 //!
@@ -41,11 +41,8 @@
 //!
 //! | module | what |
 //! |---|---|
-//! | [`variables`] | the variables and their start values |
-//! | [`force_sensor`], [`joint`] | those of the force sensor `ft.*`, and of the joint-space form |
-//! | [`rows`], [`enumerations`] | one row per variable: name, unit, bounds, description; the items of choices and states |
-//! | [`parameters`] | the law's parameters from them, refusals |
-//! | [`model`] | start, tick, outputs |
+//! | [`rows`] | the variables: inputs, outputs and parameters of [`arm_law`], which declares each in one row |
+//! | [`model`] | what a step does |
 
 #![forbid(unsafe_code)]
 #![allow(
@@ -53,12 +50,7 @@
     reason = "fields are spelt like the paper's symbols and the interface: Lambda_n, K_P, J, T"
 )]
 
-pub mod enumerations;
-pub mod force_sensor;
-pub mod joint;
 pub mod model;
-pub mod parameters;
 pub mod rows;
-pub mod variables;
 
-pub use variables::ArmController;
+pub use rows::ArmController;

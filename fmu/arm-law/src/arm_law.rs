@@ -2,118 +2,36 @@
 //!
 //! It knows no FMI: the FMU ArmController and the C library are shells around it.
 
+use crate::choices::WRENCH;
 use crate::displacement::Origin;
 use crate::form::Form;
-use crate::joint_space::{JointGains, JointParameters, Nominal};
+use crate::joint_space::Nominal;
 use crate::kinematics::{Kinematics, Pose};
-use crate::limits::Limits;
+use crate::parameters::{ArmParameters, Checked};
+use crate::signals::{ArmInputs, ArmOutputs};
 use crate::singularity::Singularity;
 use crate::stiff_hand::Detectors;
 use crate::supervision::{self, Demand, Report, Status, Supervisor};
 use crate::task_space::Outcome;
-use crate::wrench::{Conditioned, Conditioner, Frame, Sample, Sensor, Wrench};
-use admittance::hand::StiffHand;
-use admittance::{Bounds, Gains, Ledger, ParameterError, Reach, Real, Request, Settings, real};
+use crate::wrench::{Conditioned, Conditioner, Fault, Frame, Sample, TareFailure, Wrench};
+use admittance::origin::{self, Move};
+use admittance::{Bounds, Ledger, ParameterError, Real, Request, real};
 use nalgebra::Vector3;
 
 pub use crate::form::Space;
 
-/// What stays fixed while the law is in use, but for the gains.
+/// What came of a tick, before it is shown.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct Parameters {
-    /// What all axes share.
-    pub settings: Settings,
-    /// Gains along x, y, z of the base frame.
-    pub gains: [Gains; 3],
-    /// Limits of the nominal along x, y, z.
-    pub bounds: [Bounds; 3],
-    /// How fast the joints can move: the motions for which passivity is promised, rad/s and rad/s².
-    pub reach: Reach<3>,
-    /// Where the handle is.
-    pub kinematics: Kinematics,
-    /// What the joints deliver.
-    pub limits: Limits,
-    /// Slowing before a singularity.
-    pub singularity: Singularity,
-    /// Damping for a hand too stiff for the gains.
-    pub stiff_hand: StiffHand,
-    /// The frame of the hand's force sensor.
-    pub frame: Frame,
-    /// What is made of its reading.
-    pub sensor: Sensor,
-    /// Supervision; `None`: `engage` alone decides.
-    pub supervision: Option<supervision::Parameters>,
-    /// The coordinates in which the nominal lives: in task space with `gains` and `bounds`, in joint space with `joint`.
-    pub space: Space,
-    /// The nominal in joint space.
-    pub joint: JointParameters,
-}
-
-/// What is sensed and asked for at a tick.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Inputs {
-    /// Joint angles, rad.
-    pub q: Vector3<Real>,
-    /// What the hand's force sensor reads: about its origin, in [`Parameters::frame`]. No moment if it has none.
-    pub hand: Wrench,
-    /// The sensor's own word: false = invalid.
-    pub ft_valid: bool,
-    /// Whether a tare of the sensor is requested; its change to true starts one.
-    pub tare: bool,
-    /// Whether the law is to be in the loop.
-    pub engage: bool,
-    /// Whether the nominal is to stay where it is.
-    pub hold: bool,
-    /// What supervision sees besides; without it nobody does.
-    pub signals: Signals,
-}
-
-/// What an operator and a machine's other parts say: [`supervision::Inputs`] less what [`Inputs`] has already.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Signals {
-    /// Whether the controller may run at all.
-    pub enable: bool,
-    /// Its rising edge acknowledges a fault.
-    pub acknowledge: bool,
-    /// Whether the emergency stop is pressed.
-    pub emergency_stop: bool,
-    /// A counter that changes as long as its sender lives.
-    pub heartbeat: i32,
-    /// Whether the joint angles can be trusted. Angles that are not finite never are.
-    pub encoder_valid: bool,
-}
-
-impl Default for Signals {
-    /// Not enabled, with good sensors.
-    fn default() -> Self {
-        Self {
-            enable: false,
-            acknowledge: false,
-            emergency_stop: false,
-            heartbeat: 0,
-            encoder_valid: true,
-        }
-    }
-}
-
-/// What came of a tick.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Outputs {
-    /// Where the handle is.
-    pub pose: Pose,
-    /// What the law did.
-    pub outcome: Outcome,
-    /// The nominal in joint coordinates; in task space, where it has none, the robot at rest, M_n 0.
-    pub nominal: Nominal,
-    /// Whether the nominal is slowed before a singularity.
-    pub slowed: bool,
-    /// What is known of a stiff hand, after this tick.
-    pub stiff_hand: Detectors,
-    /// What the law knows of the hand: about the handle, in the base frame.
-    pub ft: Conditioned,
-    /// What supervision says; without it, that the law does what `engage` and `hold` say.
-    pub status: Status,
+struct Ran {
+    pose: Pose,
+    outcome: Outcome,
+    /// the nominal in joint coordinates; in task space, where it has none, the robot at rest, M_n 0
+    nominal: Nominal,
+    slowed: bool,
+    stiff_hand: Detectors,
+    ft: Conditioned,
+    /// what supervision says; without it, that the law does what `engage` and `hold` say
+    status: Status,
 }
 
 /// A tick whose result is not finite: an input was not, or numbers overflow.
@@ -128,6 +46,7 @@ pub struct ArmLaw {
     singularity: Singularity,
     stiff_hand: Detectors,
     frame: Frame,
+    source: i32,
     conditioner: Conditioner,
     form: Form,
     supervisor: Option<Supervisor>,
@@ -138,6 +57,7 @@ pub struct ArmLaw {
     bounds: [Bounds; 3],
     /// where angles and positions are counted from, if not from zero
     origin: Option<Origin>,
+    counting: origin::Origin<3>,
 }
 
 impl ArmLaw {
@@ -145,66 +65,53 @@ impl ArmLaw {
     ///
     /// # Errors
     /// The first parameter out of its range, a law that is not offered, or limits that do not suit it.
-    pub fn new(parameters: &Parameters) -> Result<Self, ParameterError> {
-        parameters.limits.check()?;
-        parameters.limits.check_under(parameters.settings.law)?;
-        parameters.kinematics.check()?;
-        parameters.singularity.check()?;
-        parameters.joint.arm.check()?;
-        parameters.joint.gains.check()?;
-        parameters.frame.check()?;
+    pub fn new(parameters: &ArmParameters) -> Result<Self, ParameterError> {
+        let Checked {
+            settings,
+            gains,
+            bounds,
+            reach,
+            limits,
+            space,
+            joint,
+            supervision,
+        } = parameters.checked()?;
+        let (kinematics, T) = (parameters.kinematics, settings.T);
         Ok(Self {
-            kinematics: parameters.kinematics,
+            kinematics,
             singularity: parameters.singularity,
-            stiff_hand: Detectors::new(parameters.stiff_hand, parameters.settings.T)?,
-            frame: parameters.frame,
-            conditioner: Conditioner::new(parameters.sensor, parameters.settings.T)?,
-            form: match parameters.space {
-                Space::Task => Form::task(
-                    parameters.settings,
-                    parameters.gains,
-                    parameters.bounds,
-                    parameters.reach,
-                    parameters.limits,
-                )?,
-                Space::Joint => Form::joint(
-                    parameters.settings,
-                    &parameters.joint,
-                    parameters.kinematics,
-                    parameters.reach,
-                    parameters.limits,
-                )?,
+            stiff_hand: Detectors::new(parameters.stiff_hand, T)?,
+            frame: parameters.ft.sensed_in(),
+            source: parameters.ft.source,
+            conditioner: Conditioner::new(parameters.ft, T)?,
+            form: match space {
+                Space::Task => Form::task(settings, gains, bounds, reach, limits)?,
+                Space::Joint => Form::joint(settings, &joint, kinematics, reach, limits)?,
             },
-            supervisor: parameters
-                .supervision
-                .map(|supervision| Supervisor::new(&supervision, parameters.settings.T))
+            supervisor: supervision
+                .map(|supervision| Supervisor::new(&supervision, T))
                 .transpose()?,
             q: Vector3::zeros(),
             v_n: Vector3::zeros(),
-            bounds: parameters.bounds,
+            bounds,
             origin: None,
+            counting: origin::Origin::default(),
         })
     }
 
-    /// Other gains: on a straight line over the tuning time, each step taken over so that the stored energy does not rise.
-    /// In joint space they are checked and have no effect.
+    /// Other gains: on a straight line over the tuning time, each step taken over so that the stored energy does not rise. Of
+    /// the parameters those that may be tuned count; the others are as they were when the law was built.
     ///
     /// # Errors
     /// The first gain out of its range; the gains stay as they were.
-    pub fn tune(&mut self, gains: [Gains; 3]) -> Result<(), ParameterError> {
-        self.form.tune(gains)
-    }
-
-    /// Other gains of the joints, likewise. In task space they are checked and have no effect.
-    ///
-    /// # Errors
-    /// The first gain out of its range; the gains stay as they were.
-    pub fn tune_joints(&mut self, gains: JointGains) -> Result<(), ParameterError> {
-        self.form.tune_joints(gains)
+    pub fn tune(&mut self, parameters: &ArmParameters) -> Result<(), ParameterError> {
+        let (gains, joint_gains) = parameters.tuned()?;
+        self.form.tune(gains)?;
+        self.form.tune_joints(joint_gains)
     }
 
     /// Counts from the joint angles `q_0` (rad) and from where the handle is there, from the next tick on: `q` of the
-    /// [`Inputs`], and p, p_n of the [`Outputs`]. The [`Bounds`] stay where they are. Only while the law is out of the loop,
+    /// [`ArmInputs`], and p, p_n of the [`ArmOutputs`]. The [`Bounds`] stay where they are. Only while the law is out of the loop,
     /// and in task space; in joint space nothing changes.
     ///
     /// Single precision needs it, see [`displacement`](crate::displacement).
@@ -245,59 +152,89 @@ impl ArmLaw {
         }
     }
 
-    /// One tick.
+    /// One tick, whose results stand in `outputs`.
     ///
     /// # Errors
-    /// [`NotFinite`], without supervision; the law stays as it was before the tick. With supervision that is a fault with a
-    /// name and no torque.
-    pub fn tick(&mut self, inputs: &Inputs) -> Result<Outputs, NotFinite> {
+    /// [`NotFinite`], without supervision; law and outputs stay as they were before the tick. With supervision that is a fault
+    /// with a name and no torque.
+    pub fn tick(&mut self, inputs: &ArmInputs, outputs: &mut ArmOutputs) -> Result<(), NotFinite> {
         let before = *self;
-        match self.supervisor {
-            Some(supervisor) => Ok(self.supervised(inputs, supervisor)),
-            None => {
-                let demand = if inputs.engage {
-                    Demand::Run {
-                        authority: 1.0,
-                        freedom: if inputs.hold { 0.0 } else { 1.0 },
-                    }
-                } else {
-                    Demand::Rest
-                };
-                let pose = self.pose(&inputs.q);
-                let ft = self.sensed(&pose, inputs);
-                self.run(&pose, &inputs.q, ft, demand)
-                    .inspect_err(|NotFinite| *self = before)
-            }
+        let ran = self.ran(inputs).inspect_err(|NotFinite| *self = before)?;
+        self.counting.ticked(ran.outcome.engaged);
+        self.show(&ran, outputs);
+        Ok(())
+    }
+
+    /// What is shown before the first tick: a law at rest that has sensed no force.
+    ///
+    /// # Errors
+    /// [`NotFinite`]: the joint angles are not, or numbers overflow.
+    pub fn at_rest(&self, inputs: &ArmInputs, outputs: &mut ArmOutputs) -> Result<(), NotFinite> {
+        let mut law = Self {
+            supervisor: None,
+            ..*self
+        };
+        law.tick(
+            &ArmInputs {
+                engage: 0,
+                ..*inputs
+            },
+            outputs,
+        )?;
+        law.show_hand(&Conditioned::NOTHING, outputs);
+        Ok(())
+    }
+
+    fn ran(&mut self, inputs: &ArmInputs) -> Result<Ran, NotFinite> {
+        let q = Vector3::from(inputs.q);
+        // In joint space the law counts from zero: the nominal arm is one at the angles themselves.
+        let may_engage = inputs.engage != 0 && matches!(self.form, Form::Task(_));
+        if let Some(Move { q_0, .. }) = self.counting.moves(&q, may_engage) {
+            self.count_from(&q_0).map_err(|_| NotFinite)?;
         }
+        let q = self.counting.counted(&q);
+        if let Some(supervisor) = self.supervisor {
+            return Ok(self.supervised(inputs, q, supervisor));
+        }
+        let demand = if inputs.engage != 0 {
+            Demand::Run {
+                authority: 1.0,
+                freedom: if inputs.hold != 0 { 0.0 } else { 1.0 },
+            }
+        } else {
+            Demand::Rest
+        };
+        let pose = self.pose(&q);
+        let ft = self.sensed(&pose, &q, inputs);
+        self.run(&pose, &q, ft, demand)
     }
 
     /// One tick in which supervision decides. What cannot be trusted does not reach the law: without joint angles it rests
     /// where it last knew the arm to be, without a force it feels none.
-    fn supervised(&mut self, inputs: &Inputs, mut supervisor: Supervisor) -> Outputs {
+    fn supervised(
+        &mut self,
+        inputs: &ArmInputs,
+        q: Vector3<Real>,
+        mut supervisor: Supervisor,
+    ) -> Ran {
         let before = *self;
-        let Inputs {
-            signals,
-            engage,
-            hold,
-            ..
-        } = *inputs;
-        let is_known = inputs.q.iter().all(|q| q.is_finite());
-        let q = if is_known { inputs.q } else { self.q };
+        let is_known = q.iter().all(|q| q.is_finite());
+        let q = if is_known { q } else { self.q };
         let pose = self.pose(&q);
-        let ft = self.sensed(&pose, &Inputs { q, ..*inputs });
+        let ft = self.sensed(&pose, &q, inputs);
+        let is_seen = is_known && inputs.encoder_valid != 0;
         let demand = supervisor.step(&supervision::Inputs {
-            enable: signals.enable,
-            engage,
-            acknowledge: signals.acknowledge,
-            emergency_stop: signals.emergency_stop,
-            hold,
-            heartbeat: signals.heartbeat,
+            enable: inputs.enable != 0,
+            engage: inputs.engage != 0,
+            acknowledge: inputs.acknowledge != 0,
+            emergency_stop: inputs.emergency_stop != 0,
+            hold: inputs.hold != 0,
+            heartbeat: inputs.heartbeat,
             ft_valid: ft.fault.is_none(),
-            encoder_valid: signals.encoder_valid && is_known,
+            encoder_valid: is_seen,
             force: ft.hand.force.norm(),
         });
 
-        let is_seen = is_known && signals.encoder_valid;
         let ran = if demand == Demand::Rest && !is_seen {
             Ok(self.abandon(ft))
         } else {
@@ -314,15 +251,15 @@ impl ArmLaw {
             self.abandon(ft)
         });
         self.supervisor = Some(supervisor);
-        Outputs { status, ..ran }
+        Ran { status, ..ran }
     }
 
     /// No torque, the nominal where the arm was last known to be.
-    fn abandon(&mut self, ft: Conditioned) -> Outputs {
+    fn abandon(&mut self, ft: Conditioned) -> Ran {
         let pose = self.pose(&self.q);
         self.stiff_hand = self.stiff_hand.at_rest();
         let (outcome, nominal) = self.form.abandon(&pose, &self.q);
-        Outputs {
+        Ran {
             outcome,
             nominal,
             pose,
@@ -341,7 +278,7 @@ impl ArmLaw {
         q: &Vector3<Real>,
         ft: Conditioned,
         demand: Demand,
-    ) -> Result<Outputs, NotFinite> {
+    ) -> Result<Ran, NotFinite> {
         let damping = if self.form.knows_singularities() {
             self.singularity.damping(pose.sigma_min)
         } else {
@@ -370,7 +307,7 @@ impl ArmLaw {
         if !matches!(demand, Demand::Run { freedom, .. } if freedom < 1.0) {
             self.v_n = self.form.velocity(&outcome, &nominal);
         }
-        Ok(Outputs {
+        Ok(Ran {
             pose: *pose,
             outcome,
             nominal,
@@ -391,14 +328,22 @@ impl ArmLaw {
     }
 
     /// What the hand does, in the base frame.
-    fn sensed(&mut self, pose: &Pose, inputs: &Inputs) -> Conditioned {
+    fn sensed(&mut self, pose: &Pose, q: &Vector3<Real>, inputs: &ArmInputs) -> Conditioned {
         let turn = self.frame.at(pose);
+        let (force, torque) = if self.source == WRENCH {
+            (inputs.ft_force, inputs.ft_torque)
+        } else {
+            (inputs.f_h, [0.0; 3])
+        };
         let ft = self.conditioner.step(&Sample {
-            wrench: inputs.hand,
+            wrench: Wrench {
+                force: force.into(),
+                torque: torque.into(),
+            },
             R: turn.R(),
-            q: self.absolute(&inputs.q),
-            valid: inputs.ft_valid,
-            tare: inputs.tare,
+            q: self.absolute(q),
+            valid: inputs.ft_valid != 0,
+            tare: inputs.ft_tare != 0,
         });
         Conditioned {
             hand: Wrench {
@@ -407,6 +352,62 @@ impl ArmLaw {
             },
             ..ft
         }
+    }
+
+    fn show(&self, ran: &Ran, outputs: &mut ArmOutputs) {
+        let Ran {
+            pose,
+            outcome,
+            nominal,
+            slowed,
+            stiff_hand,
+            ft,
+            status,
+        } = ran;
+        let absolute = |p: Vector3<Real>| self.origin().map_or(p, |p_0| p_0 + p).into();
+        outputs.tau_a = outcome.tau.into();
+        outputs.tau_demand = outcome.tau_demand.into();
+        outputs.f_a = outcome.f_a.into();
+        outputs.p = absolute(pose.p);
+        outputs.dp = outcome.dp.into();
+        outputs.p_n = absolute(outcome.p_n);
+        outputs.dp_n = outcome.dp_n.into();
+        outputs.e_nr = outcome.e_nr.into();
+        outputs.sigma_min = pose.sigma_min;
+        outputs.saturated = outcome.saturated.into();
+        outputs.held = outcome.held.into();
+        outputs.outside_bounds = outcome.outside_bounds.into();
+        outputs.engaged = outcome.engaged.into();
+        outputs.slowed = i32::from(*slowed);
+        outputs.q_n = self.absolute(&nominal.q_n).into();
+        outputs.dq_n = nominal.dq_n.into();
+        outputs.e_q = nominal.e_nr.into();
+        outputs.M_n = core::array::from_fn(|i| nominal.M_n[(i / 3, i % 3)]);
+        outputs.stiff_hand_detected = stiff_hand.detected().into();
+        outputs.stiff_hand_D = stiff_hand.D().into();
+        outputs.stiff_hand_k_h = stiff_hand.k_h().into();
+        outputs.state = status.state.number();
+        outputs.diagnostic = status.diagnostic.number();
+        outputs.first_fault = status.first_fault.number();
+        outputs.authority = status.authority;
+        let ledger = self.ledger();
+        outputs.H = ledger.H();
+        outputs.G = ledger.G();
+        outputs.tank = ledger.tank();
+        outputs.debt = ledger.is_in_debt().into();
+        outputs.share = outcome.share;
+        self.show_hand(ft, outputs);
+    }
+
+    fn show_hand(&self, ft: &Conditioned, outputs: &mut ArmOutputs) {
+        outputs.ft_f_h = ft.hand.force.into();
+        outputs.ft_moment = ft.hand.torque.into();
+        outputs.ft_fault = ft.fault.map_or(0, Fault::number);
+        outputs.ft_tare_state = ft.tare.number();
+        outputs.ft_tare_failure = ft.tare.failure().map_or(0, TareFailure::number);
+        let bias = self.conditioner.bias();
+        outputs.ft_bias_force = bias.force.into();
+        outputs.ft_bias_torque = bias.torque.into();
     }
 
     /// What the hand's force sensor reads when nothing acts on it, as far as a tare has found it; sensor frame.

@@ -4,21 +4,27 @@
 //! pitch about −y, so that positive pitch lifts. Link 3's frame has its origin on the elbow's axis, x along the link, z
 //! up when the link is level; the handle lies in its x-z plane.
 
-use admittance::parameters::{FINITE, NOT_NEGATIVE, POSITIVE, check};
+use admittance::parameters::in_range;
 use admittance::{ParameterError, Real, real};
+use declaration::{Rows, Start};
 use nalgebra::{Matrix3, Vector3};
 
-/// The lengths that place the handle, m.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// The lengths that place the handle. The start values are the exoskeleton arm's.
+#[derive(Clone, Copy, Debug, PartialEq, Rows, Start)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[repr(C)]
 pub struct Kinematics {
-    /// From the yaw axis forward to the shoulder's pitch axis.
+    /// Length from the yaw axis forward to the shoulder's pitch axis.
+    #[parameter(35, name = "kinematics.A1", unit = METRE, range = NOT_NEGATIVE, start = 0.06)]
     pub A1: Real,
-    /// From the shoulder's pitch axis to the elbow's.
+    /// Length from the shoulder's pitch axis to the elbow's.
+    #[parameter(36, name = "kinematics.L1", unit = METRE, range = POSITIVE, start = 0.32)]
     pub L1: Real,
-    /// Handle in link 3's frame: from the elbow's axis along the link.
+    /// Handle in link 3's frame: from the elbow's axis along the link, L2 of the arm.
+    #[parameter(37, name = "kinematics.handle_x", unit = METRE, range = POSITIVE, start = 0.36)]
     pub handle_x: Real,
     /// Handle in link 3's frame: across the link, upwards when it is level.
+    #[parameter(38, name = "kinematics.handle_z", unit = METRE)]
     pub handle_z: Real,
 }
 
@@ -33,18 +39,6 @@ pub struct Pose {
     pub sigma_min: Real,
     /// Link 3's axes in the base frame, as columns: turns a vector of link 3's frame into the base frame.
     pub R: Matrix3<Real>,
-}
-
-impl Default for Kinematics {
-    /// The exoskeleton arm's.
-    fn default() -> Self {
-        Self {
-            A1: 0.06,
-            L1: 0.32,
-            handle_x: 0.36,
-            handle_z: 0.0,
-        }
-    }
 }
 
 impl Kinematics {
@@ -104,15 +98,7 @@ impl Kinematics {
     /// # Errors
     /// The first length out of its range.
     pub fn check(&self) -> Result<(), ParameterError> {
-        check(
-            None,
-            &[
-                ("kinematics.A1", self.A1, NOT_NEGATIVE),
-                ("kinematics.L1", self.L1, POSITIVE),
-                ("kinematics.handle_x", self.handle_x, POSITIVE),
-                ("kinematics.handle_z", self.handle_z, FINITE),
-            ],
-        )
+        in_range(self)
     }
 }
 

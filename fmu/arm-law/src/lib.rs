@@ -26,12 +26,15 @@
 )]
 
 pub mod arm_law;
+pub mod choices;
 pub mod displacement;
 pub mod form;
 pub mod joint_space;
 pub mod kinematics;
 pub mod limits;
 pub mod nominal;
+pub mod parameters;
+pub mod signals;
 pub mod singularity;
 pub mod stiff_hand;
 pub mod supervision;
@@ -40,3 +43,5 @@ pub mod wrench;
 
 pub use admittance::{ParameterError, Real};
 pub use arm_law::ArmLaw;
+pub use parameters::ArmParameters;
+pub use signals::{ArmInputs, ArmOutputs};

@@ -2,8 +2,10 @@
 
 use admittance::law::Felt;
 use admittance::listed::{Text, laws};
-use admittance::parameters::{LIMIT, POSITIVE, check};
+use admittance::parameters::{check, limit};
 use admittance::{Law, ParameterError, Real, real};
+use declaration::check::Expected;
+use declaration::range::POSITIVE;
 use nalgebra::Vector3;
 
 /// How torques beyond ±tau_max are brought within.
@@ -69,7 +71,7 @@ impl Limits {
                 Some(joint),
                 &[
                     ("tau_max", *tau_max, POSITIVE),
-                    ("tau_rate_max", *tau_rate, LIMIT),
+                    ("tau_rate_max", limit(*tau_rate), POSITIVE),
                 ],
             )?;
         }
@@ -87,7 +89,7 @@ impl Limits {
                 name: "torque_limiting",
                 axis: None,
                 value: self.limiting as i32 as Real,
-                expected: SCALE_ONLY,
+                expected: Expected::Text(SCALE_ONLY),
             }),
             (TorqueLimiting::Clip, Felt::Nothing | Felt::Coupling) | (TorqueLimiting::Scale, _) => {
                 Ok(())

@@ -15,31 +15,26 @@
 //! the arm straight for seconds to rest near 0.05 m/rad (a test), where the 400 N of f_max still bend the elbow against
 //! friction of 12 N·m.
 
-use admittance::parameters::{NOT_NEGATIVE, check};
+use admittance::parameters::in_range;
 use admittance::{ParameterError, Real, real};
+use declaration::{Rows, Start};
 
 /// Share of sigma_slow below which the damping grows no further.
 const LEAST_SHARE: Real = 0.25;
 
-/// When and how much the nominal is slowed.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// When and how much the nominal is slowed. The start values: two thirds of the least sigma_min that the paper's experiments
+/// come to (0.18 m/rad), and a damping that takes the speed from the nominal within the few centimetres that are left.
+#[derive(Clone, Copy, Debug, PartialEq, Rows, Start)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[repr(C)]
 pub struct Singularity {
-    /// sigma_min below which the nominal is damped more, m/rad; 0 = off.
+    /// sigma_min below which the nominal is damped more; 0 = off.
+    #[parameter(40, name = "singularity.sigma_slow", unit = METRE_PER_RADIAN, range = NOT_NEGATIVE, start = 0.12)]
     pub sigma_slow: Real,
-    /// What scales the damping, N·s/m.
+    /// Slowing: below sigma_slow D_n is raised by singularity.D*((sigma_slow/sigma_min)^2 - 1), at most by 15
+    /// singularity.D.
+    #[parameter(41, name = "singularity.D", unit = NEWTON_SECOND_PER_METRE, range = NOT_NEGATIVE, start = 200.0)]
     pub D: Real,
-}
-
-impl Default for Singularity {
-    /// Two thirds of the least that the paper's experiments come to (0.18 m/rad); a damping that takes the speed from the
-    /// nominal within the few centimetres that are left.
-    fn default() -> Self {
-        Self {
-            sigma_slow: 0.12,
-            D: 200.0,
-        }
-    }
 }
 
 impl Singularity {
@@ -62,12 +57,6 @@ impl Singularity {
     /// # Errors
     /// The first value out of its range.
     pub fn check(&self) -> Result<(), ParameterError> {
-        check(
-            None,
-            &[
-                ("singularity.sigma_slow", self.sigma_slow, NOT_NEGATIVE),
-                ("singularity.D", self.D, NOT_NEGATIVE),
-            ],
-        )
+        in_range(self)
     }
 }

@@ -7,6 +7,7 @@ use arm_law::ParameterError;
 use arm_law::joint_space::{Committed, JointGains, JointRequest, Joints};
 use arm_law::kinematics::Kinematics;
 use arm_law::nominal::{Link, NominalArm};
+use declaration::check::Expected;
 use nalgebra::Vector3;
 use proptest::prelude::*;
 
@@ -382,7 +383,7 @@ fn a_gain_out_of_range_is_refused_with_joint_and_value_and_the_gains_stay() {
             name: "joint.K_P",
             axis: Some(2),
             value: 0.0,
-            expected: "a finite value greater than 0",
+            expected: Expected::Text("a finite value greater than 0"),
         })
     );
     assert_eq!(joints, before);

@@ -1,16 +1,15 @@
 //! The admittance laws as a C library for a real-time controller: one axis, and the arm.
 //!
-//! It is a shell around the packages `admittance` and `arm-law`, as the FMUs are: the same ticks, bit for bit. The package
+//! It is a shell around the packages `admittance` and `arm-law`, as the FMUs are: the same structs, the same ticks, bit for bit. The package
 //! `exo-law-f32` is the same in single precision. `include/exo_law.h` is generated from this source.
 //!
 //! | module | what |
 //! |---|---|
 //! | [`arm`] | `exo_arm_*`: the law of ArmController.fmu |
 //! | [`axis`] | `exo_axis_*`: one axis, the law of TestbedController.fmu in torque form |
-//! | [`gains`] | what may be changed while the law runs |
-//! | [`origin`] | where positions are counted from in single precision |
 //! | [`refusal`] | status, and which value was refused |
 //! | [`storage`] | memory that the caller provides for a law |
+//! | [`variable`] | the structs' variables by name |
 //! | [`mod@pointer`] | the C boundary: null, alignment, initialization. All the unsafe code is there |
 //!
 //! Rules of the interface:
@@ -28,12 +27,11 @@
 
 pub mod arm;
 pub mod axis;
-pub mod gains;
-pub mod origin;
 mod panic;
 pub mod pointer;
 pub mod refusal;
 pub mod storage;
+pub mod variable;
 
 /// The law's number: double precision, or single precision in the library `exo_law_f32`.
 #[cfg(not(feature = "f32"))]

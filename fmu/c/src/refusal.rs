@@ -3,6 +3,8 @@
 use crate::Real;
 use admittance::{Law, ParameterError};
 use core::ffi::c_char;
+use declaration::check::Expected;
+use declaration::{Access, Variable as Row};
 
 /// What a call returns; everything but `Ok` changed nothing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -20,6 +22,8 @@ pub enum Status {
     Refused = 4,
     /// The tick's result is not finite: numbers overflow.
     NotFinite = 5,
+    /// There is no variable of this number: it is beyond the last.
+    NoSuchVariable = 6,
 }
 
 /// Which value was refused. All texts end with a zero byte.
@@ -51,23 +55,13 @@ impl Default for Refusal {
 /// A value out of its range, inside the library.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Bad {
-    pub(crate) name: &'static str,
-    pub(crate) axis: i32,
-    pub(crate) value: Real,
-    pub(crate) expected: &'static str,
+    name: &'static str,
+    axis: i32,
+    value: Real,
+    expected: Expected,
 }
 
 impl Bad {
-    /// The choice `name` with the number `value`, which is none of those `expected`.
-    pub(crate) fn choice(name: &'static str, value: i32, expected: &'static str) -> Self {
-        Self {
-            name,
-            axis: 0,
-            value: value as Real, // choices are small numbers: exact also in single precision
-            expected,
-        }
-    }
-
     /// The first of the sensed values that is not finite.
     pub(crate) fn sensed(name: &'static str, values: &[Real]) -> Option<Self> {
         let axis = |axis| if values.len() > 1 { axis } else { 0 };
@@ -78,16 +72,23 @@ impl Bad {
                 name,
                 axis: axis(number),
                 value: *value,
-                expected: "a finite value",
+                expected: Expected::Text("a finite value"),
             })
     }
 
-    /// A parameter error under the names of the interface, which `rename` knows.
-    pub(crate) fn from_law(
-        error: ParameterError,
-        rename: fn(&'static str) -> &'static str,
-    ) -> Self {
-        let law = |law: Law| Self::choice("law", law.number(), Law::OFFERED);
+    /// A law that is not offered.
+    fn law(number: i32, expected: &'static str) -> Self {
+        Self {
+            name: "law",
+            axis: 0,
+            value: number as Real, // a small number: exact also in single precision
+            expected: Expected::Text(expected),
+        }
+    }
+}
+
+impl From<ParameterError> for Bad {
+    fn from(error: ParameterError) -> Self {
         match error {
             ParameterError::OutOfRange {
                 name,
@@ -95,14 +96,14 @@ impl Bad {
                 value,
                 expected,
             } => Self {
-                name: rename(name),
+                name,
                 axis: axis.and_then(|axis| i32::try_from(axis).ok()).unwrap_or(0),
                 value,
                 expected,
             },
-            ParameterError::NotOffered(comparator) => law(comparator),
-            ParameterError::NoServoForm(without) => law(without),
-            ParameterError::UnknownLaw(number) => Self::choice("law", number, Law::OFFERED),
+            ParameterError::NotOffered(law) => Self::law(law.number(), Law::OFFERED),
+            ParameterError::NoServoForm(law) => Self::law(law.number(), Law::WITH_SERVO_FORM),
+            ParameterError::UnknownLaw(number) => Self::law(number, Law::OFFERED),
         }
     }
 }
@@ -111,28 +112,104 @@ impl From<Bad> for Refusal {
     fn from(bad: Bad) -> Self {
         Self {
             name: text(bad.name),
-            expected: text(bad.expected),
+            expected: words(bad.expected),
             axis: bad.axis,
             value: bad.value,
         }
     }
 }
 
-/// The text's bytes as far as they fit, zeros behind them and at least one.
-fn text<const N: usize>(from: &str) -> [c_char; N] {
-    let mut bytes = [0; N];
-    let room = N.saturating_sub(1);
-    for (to, from) in bytes.iter_mut().take(room).zip(from.bytes()) {
-        *to = from as c_char;
+/// The Booleans of an interface's struct: 0 is false, 1 is true, anything else is refused.
+pub(crate) fn truths<M>(of: &M, rows: &[Row<M>]) -> Result<(), Bad> {
+    for row in rows {
+        if let Access::Boolean { at } = &row.access {
+            let value = at.word(of, 0);
+            if value != 0 && value != 1 {
+                return Err(Bad {
+                    name: row.base_name(),
+                    axis: 0,
+                    value: value as Real,
+                    expected: Expected::Truth,
+                });
+            }
+        }
     }
-    bytes
+    Ok(())
 }
 
-/// A Boolean of the interface.
-pub(crate) fn truth(name: &'static str, value: i32) -> Result<bool, Bad> {
-    match value {
-        0 => Ok(false),
-        1 => Ok(true),
-        other => Err(Bad::choice(name, other, "0 (false) or 1 (true)")),
+/// The text's bytes as far as they fit, zeros behind them and at least one.
+pub(crate) fn text<const N: usize>(from: &str) -> [c_char; N] {
+    let mut words = Words::new();
+    words.add(from);
+    words.bytes
+}
+
+/// What was expected, in words.
+fn words<const N: usize>(expected: Expected) -> [c_char; N] {
+    let mut words = Words::new();
+    match expected {
+        Expected::Text(text) => words.add(text),
+        Expected::Integers(low, i32::MAX) => {
+            words.number(low);
+            words.add(" or more");
+        }
+        Expected::Integers(low, high) => {
+            words.number(low);
+            words.add(" to ");
+            words.number(high);
+        }
+        Expected::Truth => words.add("0 (false) or 1 (true)"),
+        Expected::Item(of) => {
+            for (i, item) in of.items.iter().enumerate() {
+                words.add(if i == 0 { "" } else { ", " });
+                words.number(item.value);
+                words.add(" (");
+                words.add(item.name);
+                words.add(")");
+            }
+        }
+    }
+    words.bytes
+}
+
+/// A text that grows as far as it fits, without the formatting of the standard library, which can panic.
+struct Words<const N: usize> {
+    bytes: [c_char; N],
+    length: usize,
+}
+
+impl<const N: usize> Words<N> {
+    fn new() -> Self {
+        Self {
+            bytes: [0; N],
+            length: 0,
+        }
+    }
+
+    fn add(&mut self, text: &str) {
+        let room = N.saturating_sub(1);
+        let free = self.bytes.iter_mut().take(room).skip(self.length);
+        for (to, from) in free.zip(text.bytes()) {
+            *to = from as c_char;
+            self.length += 1;
+        }
+    }
+
+    fn number(&mut self, number: i32) {
+        if number < 0 {
+            self.add("-");
+        }
+        let size = number.unsigned_abs();
+        let mut power = 1;
+        while size / power >= 10 {
+            power *= 10;
+        }
+        while power > 0 {
+            let digit = DIGITS.get((size / power % 10) as usize);
+            self.add(digit.copied().unwrap_or_default());
+            power /= 10;
+        }
     }
 }
+
+const DIGITS: [&str; 10] = ["0", "1", "2", "3", "4", "5", "6", "7", "8", "9"];

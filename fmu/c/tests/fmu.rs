@@ -4,12 +4,10 @@
 #![allow(non_snake_case, reason = "the paper's symbols")]
 
 use arm_controller::ArmController;
+use arm_law::{ArmOutputs, ArmParameters};
 use counting::Counting;
-use exo_law::arm::parameters::ArmParameters;
-use exo_law::arm::signals::{ArmInputs, ArmOutputs};
-use exo_law::arm::supervision::ArmSignals;
+use declaration::{Access, Rows as _};
 use exo_law::arm::{ArmState, exo_arm_init, exo_arm_tick, exo_arm_tune};
-use exo_law::gains::ArmGains;
 use exo_law::refusal::Status;
 use export::{Log, Model, Step};
 use std::mem::MaybeUninit;
@@ -36,7 +34,9 @@ fn memory<X>() -> Box<X> {
 }
 
 impl Pair {
-    fn new(mut fmu: ArmController, parameters: &ArmParameters) -> Self {
+    fn new(parameters: &ArmParameters) -> Self {
+        let mut fmu = ArmController::default();
+        fmu.parameters = *parameters;
         fmu.initialize(0.0, &mut Log::silent()).expect("accepted");
         let mut state = memory();
         let status = exo_arm_init(&mut *state, parameters, null_mut());
@@ -55,23 +55,7 @@ impl Pair {
         let t = f64::from(self.k) * T;
         self.k += 1;
         let fmu = &mut self.fmu;
-        let inputs = ArmInputs {
-            q: fmu.q,
-            f_h: fmu.f_h,
-            ft_force: fmu.ft.force,
-            ft_torque: fmu.ft.torque,
-            ft_valid: fmu.ft_valid.into(),
-            ft_tare: fmu.ft.tare.into(),
-            engage: fmu.engage.into(),
-            hold: fmu.hold.into(),
-            signals: ArmSignals {
-                enable: fmu.enable.into(),
-                acknowledge: fmu.acknowledge.into(),
-                emergency_stop: fmu.emergency_stop.into(),
-                heartbeat: fmu.heartbeat,
-                encoder_valid: fmu.encoder_valid.into(),
-            },
-        };
+        let inputs = fmu.inputs;
         let step = Step {
             start_time: 0.0,
             t,
@@ -84,125 +68,51 @@ impl Pair {
         self.allocations += n;
         assert_eq!(status, Status::Ok);
         assert_eq!(
-            shown_by_the_library(&self.outputs),
-            shown_by(&self.fmu),
+            bits(&self.outputs),
+            bits(&self.fmu.outputs),
             "tick {}",
             self.k
         );
     }
 
-    fn tune(&mut self, gains: ArmGains) {
+    fn tune(&mut self, change: impl FnOnce(&mut ArmParameters)) {
         let fmu = &mut self.fmu;
-        (fmu.Lambda_n, fmu.D_n) = (gains.Lambda_n, gains.D_n);
-        (fmu.K, fmu.K_P, fmu.f_max) = (gains.K, gains.K_P, gains.f_max);
+        change(&mut fmu.parameters);
         fmu.tune(&mut Log::silent()).expect("accepted");
+        let parameters = fmu.parameters;
         let (n, status) =
-            counting::allocations(|| exo_arm_tune(&mut *self.state, &gains, null_mut()));
+            counting::allocations(|| exo_arm_tune(&mut *self.state, &parameters, null_mut()));
         self.allocations += n;
         assert_eq!(status, Status::Ok);
     }
 }
 
-/// Everything that both show, as bits.
-fn shown_by_the_library(o: &ArmOutputs) -> Vec<u64> {
-    let vectors = [
-        o.tau_a,
-        o.tau_demand,
-        o.f_a,
-        o.p,
-        o.dp,
-        o.p_n,
-        o.dp_n,
-        o.e_nr,
-        o.ft_f_h,
-        o.ft_moment,
-        o.stiff_hand_D,
-        o.q_n,
-        o.dq_n,
-        o.e_q,
-    ];
-    let numbers = [o.authority, o.sigma_min, o.H, o.G, o.tank, o.share];
-    let choices = [
-        o.saturated,
-        o.held,
-        o.outside_bounds,
-        o.engaged,
-        o.slowed,
-        o.stiff_hand_detected,
-        o.ft_fault,
-        o.ft_tare_state,
-        o.ft_tare_failure,
-        o.state,
-        o.diagnostic,
-        o.first_fault,
-        o.debt,
-    ];
-    bits(&vectors, &numbers, &choices)
-}
-
-fn shown_by(f: &ArmController) -> Vec<u64> {
-    let vectors = [
-        f.tau_a,
-        f.tau_demand,
-        f.f_a,
-        f.p,
-        f.dp,
-        f.p_n,
-        f.dp_n,
-        f.e_nr,
-        f.ft.f_h,
-        f.ft.moment,
-        f.stiff_hand_seen.D,
-        f.q_n,
-        f.dq_n,
-        f.e_q,
-    ];
-    let energy = &f.energy;
-    let numbers = [
-        f.authority,
-        f.sigma_min,
-        energy.H,
-        energy.G,
-        energy.tank,
-        energy.share,
-    ];
-    let choices = [
-        f.saturated.into(),
-        f.held.into(),
-        f.outside_bounds.into(),
-        f.engaged.into(),
-        f.slowed.into(),
-        f.stiff_hand_seen.detected.into(),
-        f.ft.fault,
-        f.ft.tare_state,
-        f.ft.tare_failure,
-        f.state,
-        f.diagnostic,
-        f.first_fault,
-        energy.debt.into(),
-    ];
-    bits(&vectors, &numbers, &choices)
-}
-
-fn bits(vectors: &[[f64; 3]], numbers: &[f64], choices: &[i32]) -> Vec<u64> {
-    let vectors = vectors.iter().flatten().chain(numbers);
-    let choices = choices.iter().map(|choice| *choice as u64);
-    vectors
-        .map(|number| number.to_bits())
-        .chain(choices)
-        .collect()
+/// Everything that a tick shows, as bits.
+fn bits(outputs: &ArmOutputs) -> Vec<u64> {
+    let mut bits = Vec::new();
+    for row in ArmOutputs::ROWS {
+        match &row.access {
+            Access::Real { at, .. } => bits.extend(at.values(outputs).map(f64::to_bits)),
+            Access::Boolean { at } => bits.extend(at.values(outputs).map(u64::from)),
+            Access::Integer { at, .. } | Access::Enumeration { at, .. } => {
+                bits.extend(at.values(outputs).map(|value| value as u64));
+            }
+            Access::String { .. } => panic!("no output is a String"),
+        }
+    }
+    bits
 }
 
 /// A motion with contact-like jerks, and a force that saturates.
 fn moved(fmu: &mut ArmController, k: u32) {
     let t = f64::from(k) * T;
     let jerk = if k % 700 < 350 { 1e-3 } else { 0.0 };
-    fmu.q = [
+    fmu.inputs.q = [
         0.03 * wave(1.1 * t),
         -1.48096 + 0.02 * wave(0.7 * t) + jerk,
         1.70138 - 0.03 * wave(0.9 * t),
     ];
-    fmu.f_h = [
+    fmu.inputs.f_h = [
         0.8 * wave(0.8 * t),
         0.3 * wave(2.1 * t),
         -0.6 * wave(0.5 * t),
@@ -216,23 +126,21 @@ fn wave(x: f64) -> f64 {
 
 #[test]
 fn gains_engaging_and_hold_on_the_way_are_the_FMUs_bit_for_bit_without_an_allocation() {
-    let mut pair = Pair::new(ArmController::default(), &ArmParameters::default());
+    let mut pair = Pair::new(&ArmParameters::default());
     let mut saturated = 0;
     for k in 0..10_000 {
         moved(&mut pair.fmu, k);
-        pair.fmu.engage = !(3_000..3_050).contains(&k) && k != 5_000;
-        pair.fmu.hold = (6_000..6_400).contains(&k);
+        pair.fmu.inputs.engage = (!(3_000..3_050).contains(&k) && k != 5_000).into();
+        pair.fmu.inputs.hold = (6_000..6_400).contains(&k).into();
         if k % 1_500 == 1_000 {
-            let gains = ArmGains::default();
+            let start = ArmParameters::default();
             let softer = k % 3_000 == 1_000;
-            pair.tune(ArmGains {
-                K: if softer { [600.0; 3] } else { gains.K },
-                f_max: if softer {
-                    [100.0, 400.0, 250.0]
+            pair.tune(|p| {
+                (p.K, p.f_max) = if softer {
+                    ([600.0; 3], [100.0, 400.0, 250.0])
                 } else {
-                    gains.f_max
-                },
-                ..gains
+                    (start.K, start.f_max)
+                };
             });
         }
         pair.tick();
@@ -248,25 +156,25 @@ fn gains_engaging_and_hold_on_the_way_are_the_FMUs_bit_for_bit_without_an_alloca
 
 #[test]
 fn supervision_with_its_faults_is_the_FMUs_bit_for_bit() {
-    let mut fmu = ArmController::default();
-    (fmu.supervision, fmu.heartbeat_timeout) = (true, 0.05);
-    let mut parameters = ArmParameters::default();
-    parameters.supervision.supervision = 1;
-    parameters.supervision.heartbeat_timeout = 0.05;
-    let mut pair = Pair::new(fmu, &parameters);
+    let mut parameters = ArmParameters {
+        supervision: 1,
+        ..ArmParameters::default()
+    };
+    parameters.supervisor.heartbeat_timeout = 0.05;
+    let mut pair = Pair::new(&parameters);
     let mut states = std::collections::BTreeSet::new();
     for k in 0..8_000 {
         moved(&mut pair.fmu, k);
-        let fmu = &mut pair.fmu;
-        fmu.enable = k > 10;
-        fmu.engage = k > 300 && !(4_500..4_600).contains(&k);
+        let fmu = &mut pair.fmu.inputs;
+        fmu.enable = i32::from(k > 10);
+        fmu.engage = (k > 300 && !(4_500..4_600).contains(&k)).into();
         fmu.heartbeat = if (2_000..2_100).contains(&k) {
             0
         } else {
             (k / 10) as i32
         };
-        fmu.acknowledge = k % 1_000 == 500;
-        fmu.emergency_stop = (6_000..6_010).contains(&k);
+        fmu.acknowledge = i32::from(k % 1_000 == 500);
+        fmu.emergency_stop = (6_000..6_010).contains(&k).into();
         if (3_500..3_510).contains(&k) {
             fmu.f_h[1] = f64::NAN;
         }
@@ -282,13 +190,11 @@ fn supervision_with_its_faults_is_the_FMUs_bit_for_bit() {
 
 #[test]
 fn the_joint_space_form_is_the_FMUs_bit_for_bit() {
-    let mut fmu = ArmController::default();
-    fmu.space = 2;
     let parameters = ArmParameters {
         space: 2,
         ..ArmParameters::default()
     };
-    let mut pair = Pair::new(fmu, &parameters);
+    let mut pair = Pair::new(&parameters);
     for k in 0..5_000 {
         moved(&mut pair.fmu, k);
         pair.tick();

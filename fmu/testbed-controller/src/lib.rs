@@ -8,11 +8,11 @@
 //! use testbed_controller::TestbedController;
 //!
 //! let mut controller = TestbedController::default();
-//! controller.tau_h = 4.0;
+//! controller.inputs.tau_h = 4.0;
 //! controller.initialize(0.0, &mut Log::silent())?;
 //! controller.step(Step { start_time: 0.0, t: 0.0, h: 0.002 }, &mut Log::silent())?;
 //! assert_eq!(controller.tick, 0);
-//! assert!(controller.tau_a > 0.0); // towards where the nominal mass is being pushed
+//! assert!(controller.outputs.tau_a > 0.0); // towards where the nominal mass is being pushed
 //! # Ok::<(), export::Refusal>(())
 //! ```
 //!
@@ -26,9 +26,9 @@
 //!
 //! | module | what |
 //! |---|---|
+//! | [`rows`] | the variables, one row each, with their start values |
+//! | [`model`] | what a step does |
 //! | [`controller`] | the laws, the servo form and the comparators behind one tick |
-//! | [`model`] | the variables and what a step does |
-//! | [`rows`] | one row per variable: name, unit, bounds, description |
 
 #![forbid(unsafe_code)]
 #![allow(
@@ -40,4 +40,4 @@ pub mod controller;
 pub mod model;
 pub mod rows;
 
-pub use model::TestbedController;
+pub use rows::TestbedController;

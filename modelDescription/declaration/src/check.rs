@@ -86,6 +86,12 @@ fn objection<M>(model: &M, row: &Variable<M>, i: usize) -> Option<(f64, Expected
     }
 }
 
+impl From<&'static str> for Expected {
+    fn from(text: &'static str) -> Self {
+        Self::Text(text)
+    }
+}
+
 impl core::fmt::Display for Expected {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         match self {

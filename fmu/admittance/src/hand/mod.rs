@@ -26,7 +26,7 @@
 //! ```
 //! use admittance::hand::{Detector, StiffHand, Watch};
 //!
-//! let watch = Watch::new(StiffHand { active: true, ..StiffHand::default() }, 0.001)?;
+//! let watch = Watch::new(StiffHand { active: 1, ..StiffHand::default() }, 0.001)?;
 //! let mut detector = Detector::default();
 //! // A swing of 2 Hz that doubles in 0.5 s, at a hand of 600 N/m.
 //! for k in 0..3000 {
@@ -78,7 +78,7 @@ impl Detector {
     /// nothing: the measurement begins anew with the next one, while a detection and its damping run on.
     #[must_use]
     pub fn sensed(self, q: Real, f_h: Real, watch: &Watch) -> Self {
-        if !watch.hand().active {
+        if watch.hand().active == 0 {
             return Self::default();
         }
         let seen = if q.is_finite() && f_h.is_finite() {

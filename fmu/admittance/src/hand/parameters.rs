@@ -1,52 +1,49 @@
 //! What counts as a stiff hand and what is done about it.
 
-use crate::parameters::{POSITIVE, Range, check};
+use crate::parameters::{check, in_range};
 use crate::real::{consts::TAU, exp_m1};
 use crate::{ParameterError, Real};
+use declaration::check::Expected;
+use declaration::range::POSITIVE;
+use declaration::{Rows, Start};
 
 /// Samples that half a period of `f_high` has at least.
 const FEWEST_SAMPLES: Real = 4.0;
 
-/// The parameters `stiff_hand.*`, the same on all axes.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// The parameters `stiff_hand.*`, the same on all axes. At the start nobody watches. The band holds the unstable swings of the
+/// arm from 300 to 10000 N/m (1.1 to 7 Hz) and none of the paper's motions (0.25 to 0.8 Hz); D_max holds a hand of 2762 N/m
+/// on the arm's x axis with the paper's gains.
+#[derive(Clone, Copy, Debug, PartialEq, Rows, Start)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[repr(C)]
 pub struct StiffHand {
-    /// Whether anybody watches. If not, nothing is computed and D is 0.
-    pub active: bool,
-    /// Damping that comes on top of D_n, N·s/m.
+    /// Whether a hand too stiff for the gains is looked for and answered with damping.
+    #[parameter(54, name = "stiff_hand.active", boolean)]
+    pub active: i32,
+    /// Damping on top of D_n while a stiff hand is detected.
+    #[parameter(55, name = "stiff_hand.D_max", unit = NEWTON_SECOND_PER_METRE, range = POSITIVE, start = 200.0)]
     pub D_max: Real,
-    /// Lower edge of the band, Hz: above the motions that an operator means.
+    /// Lower edge of the band in which a stiff hand is looked for, above the motions that the operator means.
+    #[parameter(56, name = "stiff_hand.f_low", unit = HERTZ, range = POSITIVE, start = 1.0)]
     pub f_low: Real,
-    /// Upper edge of the band, Hz.
+    /// Upper edge of that band, above stiff_hand.f_low and at most 1/(8*T).
+    #[parameter(57, name = "stiff_hand.f_high", unit = HERTZ, range = POSITIVE, start = 8.0)]
     pub f_high: Real,
-    /// Amplitude of f_h in the band from which on a swing counts, N: above the force sensor's noise.
+    /// Amplitude of f_h in the band from which on a swing counts.
+    #[parameter(58, name = "stiff_hand.f_min", unit = NEWTON, range = POSITIVE, start = 1.0)]
     pub f_min: Real,
-    /// Factor by which a half swing has to be stronger than the one a period before, > 1.
+    /// Factor, greater than 1, by which f_h has to grow from one period of a swing to the next.
+    #[parameter(59, name = "stiff_hand.growth", range = AT_LEAST_ONE, start = 1.1)]
     pub growth: Real,
-    /// Time in which D goes from 0 to D_max, s.
+    /// Time in which the damping rises to stiff_hand.D_max.
+    #[parameter(60, name = "stiff_hand.attack", unit = SECOND, range = POSITIVE, start = 0.1)]
     pub attack: Real,
-    /// Time without a swing after which the damping is given back, s.
+    /// Time without a swing after which the damping is given back.
+    #[parameter(61, name = "stiff_hand.quiet", unit = SECOND, range = POSITIVE, start = 2.0)]
     pub quiet: Real,
-    /// Time in which D goes from D_max to 0, s.
+    /// Time in which it is given back.
+    #[parameter(62, name = "stiff_hand.release", unit = SECOND, range = POSITIVE, start = 1.0)]
     pub release: Real,
-}
-
-impl Default for StiffHand {
-    /// Off. The band holds the unstable swings of the arm from 300 to 10000 N/m (1.1 to 7 Hz) and none of the paper's motions
-    /// (0.25 to 0.8 Hz); D_max holds a hand of 2762 N/m on the arm's x axis with the paper's gains.
-    fn default() -> Self {
-        Self {
-            active: false,
-            D_max: 200.0,
-            f_low: 1.0,
-            f_high: 8.0,
-            f_min: 1.0,
-            growth: 1.1,
-            attack: 0.1,
-            quiet: 2.0,
-            release: 1.0,
-        }
-    }
 }
 
 /// Parameters that have been checked, with what follows from them and the sample period.
@@ -59,42 +56,25 @@ pub struct Watch {
     a_high: Real,
 }
 
-/// Greater than 1, finite.
-const ABOVE_ONE: Range = ("a finite value greater than 1", |x| {
-    x > 1.0 && x.is_finite()
-});
-
 impl Watch {
     /// A watch with sample period `T` (s).
     ///
     /// # Errors
     /// The first parameter out of its range, also where nobody watches.
     pub fn new(hand: StiffHand, T: Real) -> Result<Self, ParameterError> {
-        check(
-            None,
-            &[
-                ("T", T, POSITIVE),
-                ("stiff_hand.D_max", hand.D_max, POSITIVE),
-                ("stiff_hand.f_low", hand.f_low, POSITIVE),
-                ("stiff_hand.f_high", hand.f_high, POSITIVE),
-                ("stiff_hand.f_min", hand.f_min, POSITIVE),
-                ("stiff_hand.growth", hand.growth, ABOVE_ONE),
-                ("stiff_hand.attack", hand.attack, POSITIVE),
-                ("stiff_hand.quiet", hand.quiet, POSITIVE),
-                ("stiff_hand.release", hand.release, POSITIVE),
-            ],
-        )?;
+        check(None, &[("T", T, POSITIVE)])?;
+        in_range(&hand)?;
         let in_order = hand.f_high > hand.f_low;
-        if !in_order || hand.active && 2.0 * hand.f_high * T * FEWEST_SAMPLES > 1.0 {
+        if !in_order || hand.active != 0 && 2.0 * hand.f_high * T * FEWEST_SAMPLES > 1.0 {
             return Err(ParameterError::OutOfRange {
                 name: "stiff_hand.f_high",
                 axis: None,
                 value: hand.f_high,
-                expected: if in_order {
+                expected: Expected::Text(if in_order {
                     "at most 1/(8 T)"
                 } else {
                     "a value greater than stiff_hand.f_low"
-                },
+                }),
             });
         }
         Ok(Self {

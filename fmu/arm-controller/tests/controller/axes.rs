@@ -30,13 +30,13 @@ fn without_limits_the_arm_equals_three_scalar_axes() {
             f_max: if law == 4 { 400.0 } else { f64::INFINITY },
         };
         let mut arm = initialized(|c| {
-            c.law = law;
-            c.q = world(0).0;
+            c.parameters.law = law;
+            c.inputs.q = world(0).0;
             for i in 0..3 {
                 let Gains {
                     M_n, D_n, K, K_P, ..
                 } = gains(i);
-                (c.Lambda_n[i], c.D_n[i], c.K[i], c.K_P[i]) = (M_n, D_n, K, K_P);
+                (c.parameters.Lambda_n[i], c.parameters.D_n[i], c.parameters.K[i], c.parameters.K_P[i]) = (M_n, D_n, K, K_P);
             }
         });
         let settings = Settings {
@@ -48,26 +48,26 @@ fn without_limits_the_arm_equals_three_scalar_axes() {
             [0, 1, 2].map(|i| Admittance::new(settings, [gains(i)]).expect("valid parameters"));
         for k in 0..1100 {
             let (q, f_h) = world(k);
-            (arm.q, arm.f_h) = (q, f_h);
+            (arm.inputs.q, arm.inputs.f_h) = (q, f_h);
             tick(&mut arm, k);
-            assert!(!arm.saturated && !arm.slowed, "law {law}, tick {k}");
+            assert!(arm.outputs.saturated == 0 && arm.outputs.slowed == 0, "law {law}, tick {k}");
             let p = Kinematics::default().at(&q.into()).p;
             for (i, axis) in axes.iter_mut().enumerate() {
                 let alone = axis.step(&Vector1::new(p[i]), &Vector1::new(f_h[i]));
                 assert_eq!(
-                    (arm.f_a[i], arm.p_n[i], arm.dp_n[i], arm.e_nr[i], arm.dp[i]),
+                    (arm.outputs.f_a[i], arm.outputs.p_n[i], arm.outputs.dp_n[i], arm.outputs.e_nr[i], arm.outputs.dp[i]),
                     (
                         alone.f.x,
-                        alone.q_n.x,
-                        alone.dq_n.x,
-                        alone.e_nr.x,
+                        alone.outputs.q_n.x,
+                        alone.outputs.dq_n.x,
+                        alone.outputs.e_nr.x,
                         alone.dq.x
                     ),
                     "law {law}, tick {k}, axis {i}"
                 );
             }
         }
-        assert!(arm.f_a.iter().all(|f_a| f_a.abs() > 1.0), "{:?}", arm.f_a);
+        assert!(arm.outputs.f_a.iter().all(|f_a| f_a.abs() > 1.0), "{:?}", arm.outputs.f_a);
     }
 }
 
@@ -75,7 +75,7 @@ fn without_limits_the_arm_equals_three_scalar_axes() {
 fn tau_a_does_the_work_of_f_a() {
     let mut arm = initialized(|_| ());
     for k in 0..500 {
-        (arm.q, arm.f_h) = world(k);
+        (arm.inputs.q, arm.inputs.f_h) = world(k);
         tick(&mut arm, k);
     }
     // Virtual work by finite differences of the kinematics, not by its Jacobian.
@@ -83,13 +83,13 @@ fn tau_a_does_the_work_of_f_a() {
     for i in 0..3 {
         let mut dq = Vector3::zeros();
         dq[i] = 1e-5;
-        let dp = (p(Vector3::from(arm.q) + dq) - p(Vector3::from(arm.q) - dq)) / 2e-5;
-        let work = Vector3::from(arm.f_a).dot(&dp);
+        let dp = (p(Vector3::from(arm.inputs.q) + dq) - p(Vector3::from(arm.inputs.q) - dq)) / 2e-5;
+        let work = Vector3::from(arm.outputs.f_a).dot(&dp);
         // Differences carry 4e-11 m/rad (tests/kinematics.rs); the forces are below 100 N.
         assert!(
-            (arm.tau_a[i] - work).abs() < 1e-8,
+            (arm.outputs.tau_a[i] - work).abs() < 1e-8,
             "joint {i}: {} {work}",
-            arm.tau_a[i]
+            arm.outputs.tau_a[i]
         );
         assert!(work.abs() > 0.01);
     }

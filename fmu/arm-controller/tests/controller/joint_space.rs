@@ -22,34 +22,34 @@ fn refusals_name_the_variable_in_either_space() {
     let positive = "expected a finite value greater than 0";
     let cases: [(Change, String); 8] = [
         (
-            |c| c.space = 3,
+            |c| c.parameters.space = 3,
             "space = 3: expected 1 (task), 2 (joint)".into(),
         ),
-        (|c| c.joint.K = 0.0, format!("joint.K = 0: {positive}")),
+        (|c| c.parameters.joint.K = 0.0, format!("joint.K = 0: {positive}")),
         (
-            |c| c.joint.K_P[1] = -1.0,
+            |c| c.parameters.joint.K_P[1] = -1.0,
             format!("joint.K_P[2] = -1: {positive}"),
         ),
         (
-            |c| c.joint.D_n[2] = -1.0,
+            |c| c.parameters.joint.D_n[2] = -1.0,
             "joint.D_n[3] = -1: expected a finite value not less than 0".into(),
         ),
         (
-            |c| c.nominal.rotor[0] = 0.0,
+            |c| c.parameters.nominal.rotor[0] = 0.0,
             format!("nominal.rotor[1] = 0: {positive}"),
         ),
         (
-            |c| c.nominal.I_xz[1] = 1.0,
+            |c| c.parameters.nominal.I_xz[1] = 1.0,
             "nominal.I_xz[2] = 1: expected at most sqrt(I_xx I_zz) in absolute value".into(),
         ),
         (
-            |c| c.joint.dq_n_max[1] = -1.0,
+            |c| c.parameters.joint.dq_n_max[1] = -1.0,
             "joint.dq_n_max[2] = -1: expected a value greater than 0".into(),
         ),
         (
             |c| {
-                c.joint.q_n_box = true;
-                c.joint.q_n_max[0] = -2.0;
+                c.parameters.joint.q_n_box = 1;
+                c.parameters.joint.q_n_max[0] = -2.0;
             },
             "joint.q_n_max[1] = -2: expected a value greater than the least one".into(),
         ),
@@ -69,28 +69,28 @@ fn refusals_name_the_variable_in_either_space() {
 
 #[test]
 fn every_number_of_the_nominal_arm_arrives_in_M_n() {
-    let arm = |c: &ArmController| Matrix3::from_row_slice(&c.M_n);
-    let start = arm(&initialized(|c| c.space = JOINT));
+    let arm = |c: &ArmController| Matrix3::from_row_slice(&c.outputs.M_n);
+    let start = arm(&initialized(|c| c.parameters.space = JOINT));
     let kinematics = ArmController::default().kinematics;
     let q = Vector3::from(ArmController::default().q);
     assert_eq!(start, NominalArm::default().at(&kinematics, &q).M);
 
     let changes: [fn(&mut ArmController, usize); 8] = [
-        |c, i| c.nominal.m[i] *= 2.0,
-        |c, i| c.nominal.x[i] += 0.1,
-        |c, i| c.nominal.z[i] += 0.1,
-        |c, i| c.nominal.I_xx[i] += 0.1,
-        |c, i| c.nominal.I_yy[i] += 0.1,
-        |c, i| c.nominal.I_zz[i] += 0.1,
-        |c, i| c.nominal.I_xz[i] += 1e-3,
-        |c, i| c.nominal.rotor[i] += 0.1,
+        |c, i| c.parameters.nominal.m[i] *= 2.0,
+        |c, i| c.parameters.nominal.x[i] += 0.1,
+        |c, i| c.parameters.nominal.z[i] += 0.1,
+        |c, i| c.parameters.nominal.I_xx[i] += 0.1,
+        |c, i| c.parameters.nominal.I_yy[i] += 0.1,
+        |c, i| c.parameters.nominal.I_zz[i] += 0.1,
+        |c, i| c.parameters.nominal.I_xz[i] += 1e-3,
+        |c, i| c.parameters.nominal.rotor[i] += 0.1,
     ];
     // Link 1 only turns about the vertical axis: what lies along it does not count.
     let counts = |number: usize, i: usize| i > 0 || [0, 1, 5, 7].contains(&number);
     for (number, change) in changes.into_iter().enumerate() {
         for i in 0..3 {
             let changed = arm(&initialized(|c| {
-                c.space = JOINT;
+                c.parameters.space = JOINT;
                 change(c, i);
             }));
             assert_eq!(changed != start, counts(number, i), "{number} of link {i}");
@@ -100,13 +100,13 @@ fn every_number_of_the_nominal_arm_arrives_in_M_n() {
 
 #[test]
 fn in_task_space_the_joints_nominal_is_the_robot_itself() {
-    let mut c = initialized(|c| c.f_h = [3.0, 2.0, 5.0]);
+    let mut c = initialized(|c| c.inputs.f_h = [3.0, 2.0, 5.0]);
     (0..50).for_each(|k| tick(&mut c, k));
     assert_eq!(
-        (c.q_n, c.dq_n, c.e_q, c.M_n),
-        (c.q, [0.0; 3], [0.0; 3], [0.0; 9])
+        (c.outputs.q_n, c.outputs.dq_n, c.outputs.e_q, c.outputs.M_n),
+        (c.inputs.q, [0.0; 3], [0.0; 3], [0.0; 9])
     );
-    assert!(c.e_nr[0] > 0.0);
+    assert!(c.outputs.e_nr[0] > 0.0);
 }
 
 /// A robot that is twenty times as heavy as the nominal arm follows it: the error halves when K doubles (thm:pm).
@@ -114,8 +114,8 @@ fn in_task_space_the_joints_nominal_is_the_robot_itself() {
 fn a_heavy_robot_follows_and_its_error_halves_when_K_doubles() {
     let largest_error = |K: f64| {
         let mut c = initialized(|c| {
-            c.space = JOINT;
-            c.joint.K = K;
+            c.parameters.space = JOINT;
+            c.parameters.joint.K = K;
         });
         let mut robot = Robot::at_the_start();
         let mut largest = 0.0_f64;
@@ -124,10 +124,10 @@ fn a_heavy_robot_follows_and_its_error_halves_when_K_doubles() {
             let f_h = [0.0, 0.0, 6.0 * (2.5 * t).sin()];
             close_the_loop(&mut c, &mut robot, k, f_h);
             if t > 3.0 {
-                largest = c.e_q.iter().fold(largest, |most, e| most.max(e.abs()));
+                largest = c.outputs.e_q.iter().fold(largest, |most, e| most.max(e.abs()));
             }
         }
-        assert!(c.energy.tank >= 10.0 - 1e-9, "{}", c.energy.tank); // rounding of its sums
+        assert!(c.outputs.tank >= 10.0 - 1e-9, "{}", c.outputs.tank); // rounding of its sums
         largest
     };
     let errors = [100.0, 200.0, 400.0].map(largest_error);
@@ -141,13 +141,13 @@ fn a_heavy_robot_follows_and_its_error_halves_when_K_doubles() {
 fn a_singularity_does_not_slow_the_joints() {
     for (space, slowed) in [(1, true), (JOINT, false)] {
         let mut c = initialized(|c| {
-            c.space = space;
-            c.q = [0.0, -0.3, 0.1];
-            c.f_h = [5.0, 0.0, 5.0];
+            c.parameters.space = space;
+            c.inputs.q = [0.0, -0.3, 0.1];
+            c.inputs.f_h = [5.0, 0.0, 5.0];
         });
         (0..5).for_each(|k| tick(&mut c, k));
-        assert!(c.sigma_min < c.singularity.sigma_slow);
-        assert_eq!(c.slowed, slowed);
-        assert!(Vector3::from(c.tau_a).norm() > 0.0);
+        assert!(c.outputs.sigma_min < c.parameters.singularity.sigma_slow);
+        assert_eq!(c.outputs.slowed != 0, slowed);
+        assert!(Vector3::from(c.outputs.tau_a).norm() > 0.0);
     }
 }

@@ -9,7 +9,7 @@ const TAU_MAX: [f64; 3] = [153.0, 259.0, 153.0];
 /// Pushed hard for `ticks` against something that does not give way: asks for more than the joints deliver.
 fn pushed(ticks: u32, change: impl FnOnce(&mut ArmController)) -> ArmController {
     let mut controller = initialized(|c| {
-        c.f_h = [30.0, -45.0, 60.0];
+        c.inputs.f_h = [30.0, -45.0, 60.0];
         change(c);
     });
     (0..ticks).for_each(|k| tick(&mut controller, k));
@@ -17,20 +17,20 @@ fn pushed(ticks: u32, change: impl FnOnce(&mut ArmController)) -> ArmController 
 }
 
 fn within_tau_max(controller: &ArmController) -> bool {
-    (0..3).all(|i| controller.tau_a[i].abs() <= TAU_MAX[i])
+    (0..3).all(|i| controller.outputs.tau_a[i].abs() <= TAU_MAX[i])
 }
 
 #[test]
 fn one_common_factor_keeps_the_direction_of_the_force() {
     for law in [1, 2, 3, 4] {
-        let c = pushed(4000, |c| c.law = law);
+        let c = pushed(4000, |c| c.parameters.law = law);
         assert!(
-            c.saturated && within_tau_max(&c),
+            c.outputs.saturated != 0 && within_tau_max(&c),
             "law {law}: {:?}",
-            c.tau_a
+            c.outputs.tau_a
         );
-        let (tau, demand) = (Vector3::from(c.tau_a), Vector3::from(c.tau_demand));
-        let nearest = (0..3).map(|i| TAU_MAX[i] - c.tau_a[i].abs());
+        let (tau, demand) = (Vector3::from(c.outputs.tau_a), Vector3::from(c.outputs.tau_demand));
+        let nearest = (0..3).map(|i| TAU_MAX[i] - c.outputs.tau_a[i].abs());
         assert!(
             nearest.fold(f64::MAX, f64::min) < 1e-12,
             "law {law}: one joint lives on its limit"
@@ -43,25 +43,25 @@ fn one_common_factor_keeps_the_direction_of_the_force() {
                 "law {law}, s = {s}"
             ); // rounding of 259 N·m
         }
-        let pose = c.kinematics.at(&c.q.into());
-        assert!((pose.J.tr_mul(&Vector3::from(c.f_a)) - tau).amax() < 1e-12); // as above
+        let pose = c.parameters.kinematics.at(&c.inputs.q.into());
+        assert!((pose.J.tr_mul(&Vector3::from(c.outputs.f_a)) - tau).amax() < 1e-12); // as above
     }
 }
 
 #[test]
 fn clipping_cuts_each_joint_by_itself_and_shows_the_force_that_is_left() {
     for law in [1, 2] {
-        let c = pushed(4000, |c| (c.law, c.torque_limiting) = (law, 2));
+        let c = pushed(4000, |c| (c.parameters.law, c.parameters.torque_limiting) = (law, 2));
         for (i, tau_max) in TAU_MAX.into_iter().enumerate() {
-            let expected = c.tau_demand[i].clamp(-tau_max, tau_max);
-            assert_eq!(c.tau_a[i], expected, "law {law}, joint {i}");
+            let expected = c.outputs.tau_demand[i].clamp(-tau_max, tau_max);
+            assert_eq!(c.outputs.tau_a[i], expected, "law {law}, joint {i}");
         }
-        assert!(c.saturated);
-        let pose = c.kinematics.at(&c.q.into());
-        let residual = pose.J.tr_mul(&Vector3::from(c.f_a)) - Vector3::from(c.tau_a);
+        assert!(c.outputs.saturated != 0);
+        let pose = c.parameters.kinematics.at(&c.inputs.q.into());
+        let residual = pose.J.tr_mul(&Vector3::from(c.outputs.f_a)) - Vector3::from(c.outputs.tau_a);
         assert!(residual.amax() < 1e-11, "{residual}"); // an inverse of condition 3 on 1e3 N
-        let scaled = pushed(4000, |c| c.law = law);
-        assert!(c.tau_a != scaled.tau_a && c.tau_demand == scaled.tau_demand);
+        let scaled = pushed(4000, |c| c.parameters.law = law);
+        assert!(c.outputs.tau_a != scaled.outputs.tau_a && c.outputs.tau_demand == scaled.outputs.tau_demand);
     }
 }
 
@@ -69,12 +69,12 @@ fn clipping_cuts_each_joint_by_itself_and_shows_the_force_that_is_left() {
 fn below_the_limits_clipping_and_scaling_are_the_same() {
     let gentle = |limiting| {
         pushed(500, |c| {
-            (c.law, c.torque_limiting, c.f_h) = (2, limiting, [0.05, 0.1, -0.15]);
+            (c.parameters.law, c.parameters.torque_limiting, c.inputs.f_h) = (2, limiting, [0.05, 0.1, -0.15]);
         })
     };
     let (scaled, clipped) = (gentle(1), gentle(2));
-    assert!(!scaled.saturated && !clipped.saturated);
-    assert_eq!((scaled.tau_a, scaled.f_a), (clipped.tau_a, clipped.f_a));
+    assert!(scaled.outputs.saturated == 0 && clipped.outputs.saturated == 0);
+    assert_eq!((scaled.outputs.tau_a, scaled.outputs.f_a), (clipped.outputs.tau_a, clipped.outputs.f_a));
     assert_eq!(scaled.energy, clipped.energy);
 }
 
@@ -84,9 +84,9 @@ fn below_the_limits_clipping_and_scaling_are_the_same() {
 fn f_max_limits_passive_bounded_only() {
     let push = |law| {
         let c = pushed(6000, |c| {
-            (c.law, c.f_h, c.f_max) = (law, [0.0, 4.0, 0.0], [200.0; 3])
+            (c.parameters.law, c.inputs.f_h, c.parameters.f_max) = (law, [0.0, 4.0, 0.0], [200.0; 3])
         });
-        (c.f_a[1], c.tau_demand[0] / c.p[0], c.saturated)
+        (c.outputs.f_a[1], c.outputs.tau_demand[0] / c.outputs.p[0], c.outputs.saturated != 0)
     };
     let (f_a, demand, saturated) = push(4);
     assert!((f_a - 200.0).abs() < 1e-10 && demand > 200.0 && saturated);
@@ -106,10 +106,10 @@ fn under_the_factor_the_nominal_of_laws_3_and_4_feels_less() {
     let delivered = 153.0 / 0.44; // N in y, by the yaw joint
     let pushed = |law| {
         let c = pushed(12_000, |c| {
-            (c.law, c.f_h, c.f_max) = (law, [0.0, 4.0, 0.0], [1e6; 3])
+            (c.parameters.law, c.inputs.f_h, c.parameters.f_max) = (law, [0.0, 4.0, 0.0], [1e6; 3])
         });
-        assert!(c.saturated && (c.f_a[1] / delivered - 1.0).abs() < 2e-5); // p is 0.44 m to 5e-6 m
-        (c.dp_n[1], c.K[1] * c.K_P[1] * c.e_nr[1])
+        assert!(c.outputs.saturated != 0 && (c.outputs.f_a[1] / delivered - 1.0).abs() < 2e-5); // p is 0.44 m to 5e-6 m
+        (c.outputs.dp_n[1], c.parameters.K[1] * c.parameters.K_P[1] * c.outputs.e_nr[1])
     };
     // passive feels all of y and comes to rest at K f_h/alpha, far beyond what is delivered.
     let (v_n, spring) = pushed(2);

@@ -20,89 +20,89 @@ fn refusals_name_the_variable_the_value_and_the_range() {
     let not_negative = "expected a finite value not less than 0";
     let cases: [(Change, String); 25] = [
         (
-            |c| c.law = 5,
+            |c| c.parameters.law = 5,
             format!(
                 "law = 5 (natural) is a comparator, for one axis, and not offered here: {LAWS}"
             ),
         ),
         (
-            |c| c.law = 6,
+            |c| c.parameters.law = 6,
             format!(
                 "law = 6 (sliding_mode) is a comparator, for one axis, and not offered here: {LAWS}"
             ),
         ),
-        (|c| c.law = 0, format!("law = 0: {LAWS}")),
-        (|c| c.delay = 2, "delay = 2: expected 0 or 1".into()),
-        (|c| c.T = 0.0, format!("T = 0: {positive}")),
-        (|c| c.alpha = -1.0, format!("alpha = -1: {not_negative}")),
+        (|c| c.parameters.law = 0, format!("law = 0: {LAWS}")),
+        (|c| c.parameters.delay = 2, "delay = 2: expected 0 or 1".into()),
+        (|c| c.parameters.T = 0.0, format!("T = 0: {positive}")),
+        (|c| c.parameters.alpha = -1.0, format!("alpha = -1: {not_negative}")),
         (
-            |c| c.dp_cutoff = -1.0,
+            |c| c.parameters.dp_cutoff = -1.0,
             format!("dp_cutoff = -1: {not_negative}"),
         ),
         (
-            |c| c.energy.E_0 = -1.0,
+            |c| c.parameters.E_0 = -1.0,
             format!("energy.E_0 = -1: {not_negative}"),
         ),
-        (|c| c.dq_max[1] = 0.0, format!("dq_max[2] = 0: {positive}")),
+        (|c| c.parameters.dq_max[1] = 0.0, format!("dq_max[2] = 0: {positive}")),
         (
-            |c| c.ddq_max[0] = f64::NAN,
+            |c| c.parameters.ddq_max[0] = f64::NAN,
             "ddq_max[1] = NaN: expected a value greater than 0".into(),
         ),
         (
-            |c| c.Lambda_n[1] = 0.0,
+            |c| c.parameters.Lambda_n[1] = 0.0,
             format!("Lambda_n[2] = 0: {positive}"),
         ),
         (
-            |c| c.D_n[0] = -0.5,
+            |c| c.parameters.D_n[0] = -0.5,
             format!("D_n[1] = -0.5: {not_negative}"),
         ),
         (
-            |c| c.K[2] = f64::INFINITY,
+            |c| c.parameters.K[2] = f64::INFINITY,
             format!("K[3] = inf: {positive}"),
         ),
-        (|c| c.K_P[0] = f64::NAN, format!("K_P[1] = NaN: {positive}")),
+        (|c| c.parameters.K_P[0] = f64::NAN, format!("K_P[1] = NaN: {positive}")),
         (
-            |c| c.f_max[1] = -400.0,
+            |c| c.parameters.f_max[1] = -400.0,
             "f_max[2] = -400: expected a value greater than 0".into(),
         ),
         (
-            |c| (c.law, c.f_max[2]) = (1, f64::NAN),
+            |c| (c.parameters.law, c.parameters.f_max[2]) = (1, f64::NAN),
             "f_max[3] = NaN: expected a value greater than 0".into(),
         ),
         (
-            |c| c.tau_max[2] = 0.0,
+            |c| c.parameters.tau_max[2] = 0.0,
             format!("tau_max[3] = 0: {positive}"),
         ),
         (
-            |c| c.tau_max[0] = f64::NAN,
+            |c| c.parameters.tau_max[0] = f64::NAN,
             format!("tau_max[1] = NaN: {positive}"),
         ),
         (
-            |c| c.torque_limiting = 3,
+            |c| c.parameters.torque_limiting = 3,
             "torque_limiting = 3: expected 1 (scale), 2 (clip)".into(),
         ),
         (
-            |c| c.ft.frame = 0,
+            |c| c.parameters.ft.frame = 0,
             "ft.frame = 0: expected 1 (base), 2 (sensor)".into(),
         ),
         (
-            |c| c.kinematics.A1 = -0.1,
+            |c| c.parameters.kinematics.A1 = -0.1,
             format!("kinematics.A1 = -0.1: {not_negative}"),
         ),
         (
-            |c| c.kinematics.L1 = 0.0,
+            |c| c.parameters.kinematics.L1 = 0.0,
             format!("kinematics.L1 = 0: {positive}"),
         ),
         (
-            |c| c.kinematics.handle_x = -0.36,
+            |c| c.parameters.kinematics.handle_x = -0.36,
             format!("kinematics.handle_x = -0.36: {positive}"),
         ),
         (
-            |c| c.kinematics.handle_z = f64::NAN,
+            |c| c.parameters.kinematics.handle_z = f64::NAN,
             "kinematics.handle_z = NaN: expected a finite value".into(),
         ),
         (
-            |c| c.singularity.sigma_slow = -0.1,
+            |c| c.parameters.singularity.sigma_slow = -0.1,
             format!("singularity.sigma_slow = -0.1: {not_negative}"),
         ),
     ];
@@ -114,8 +114,8 @@ fn refusals_name_the_variable_the_value_and_the_range() {
 #[test]
 fn clipping_is_refused_where_the_nominal_feels_what_the_robot_gets() {
     let clipped: [Change; 2] = [
-        |c| (c.law, c.torque_limiting) = (3, 2),
-        |c| (c.law, c.torque_limiting) = (4, 2),
+        |c| (c.parameters.law, c.parameters.torque_limiting) = (3, 2),
+        |c| (c.parameters.law, c.parameters.torque_limiting) = (4, 2),
     ];
     for change in clipped {
         assert_eq!(
@@ -125,7 +125,7 @@ fn clipping_is_refused_where_the_nominal_feels_what_the_robot_gets() {
         );
     }
     for law in [1, 2] {
-        initialized(|c| (c.law, c.torque_limiting) = (law, 2));
+        initialized(|c| (c.parameters.law, c.parameters.torque_limiting) = (law, 2));
     }
 }
 
@@ -146,26 +146,26 @@ fn a_step_before_initialization_is_refused() {
 #[test]
 fn a_result_that_is_not_finite_fails_the_step() {
     let cases: [Change; 4] = [
-        |c| (c.law, c.K, c.f_h) = (1, [1e300; 3], [1e300; 3]),
-        |c| (c.law, c.K, c.f_h, c.torque_limiting) = (2, [1e300; 3], [1e300; 3], 2),
-        |c| c.q = [f64::NAN, 0.0, 0.0],
-        |c| (c.q[1], c.engage) = (f64::INFINITY, false),
+        |c| (c.parameters.law, c.parameters.K, c.inputs.f_h) = (1, [1e300; 3], [1e300; 3]),
+        |c| (c.parameters.law, c.parameters.K, c.inputs.f_h, c.parameters.torque_limiting) = (2, [1e300; 3], [1e300; 3], 2),
+        |c| c.inputs.q = [f64::NAN, 0.0, 0.0],
+        |c| (c.inputs.q[1], c.inputs.engage) = (f64::INFINITY, false),
     ];
     for (i, change) in cases.into_iter().enumerate() {
         // Gains before the start, the position after it: a start that is not finite is refused (see below).
         let mut c = initialized(|c| {
             change(c);
-            c.q = ArmController::default().q;
+            c.inputs.q = ArmController::default().q;
         });
-        let at_rest = c.tau_a;
+        let at_rest = c.outputs.tau_a;
         let changed = controller(change);
-        (c.q, c.engage) = (changed.q, changed.engage);
+        (c.inputs.q, c.inputs.engage) = (changed.inputs.q, changed.inputs.engage);
         let step = Step {
             start_time: 0.0,
             t: 0.0,
             h: 0.02,
         };
-        c.q[2] += 1.0;
+        c.inputs.q[2] += 1.0;
         let failure = c.step(step, &mut Log::silent()).expect_err("not finite");
         assert!(
             failure.0.starts_with("tick ")
@@ -173,9 +173,9 @@ fn a_result_that_is_not_finite_fails_the_step() {
                 && failure.0.contains("rad and f_h = ["),
             "case {i}: {failure}"
         );
-        assert_eq!((c.tau_a, at_rest), ([0.0; 3], [0.0; 3]), "case {i}");
+        assert_eq!((c.outputs.tau_a, at_rest), ([0.0; 3], [0.0; 3]), "case {i}");
     }
-    let refusal = refused(|c| c.q[0] = f64::NAN);
+    let refusal = refused(|c| c.inputs.q[0] = f64::NAN);
     assert!(
         refusal.starts_with("the start: the law's result is not finite with q = [NaN"),
         "{refusal}"

@@ -49,7 +49,7 @@ impl Robot {
 
 /// One tick of the loop without delay: q, then the torque that answers it, then the robot's way under it.
 pub fn close_the_loop(controller: &mut ArmController, robot: &mut Robot, k: u32, f_h: [f64; 3]) {
-    (controller.q, controller.f_h) = (robot.q.into(), f_h);
+    (controller.inputs.q, controller.inputs.f_h) = (robot.q.into(), f_h);
     tick(controller, k);
-    robot.advance(&controller.tau_a.into(), &f_h.into());
+    robot.advance(&controller.outputs.tau_a.into(), &f_h.into());
 }

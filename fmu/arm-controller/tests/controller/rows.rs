@@ -2,7 +2,7 @@
 
 use crate::ArmController;
 use admittance::Law;
-use arm_controller::enumerations::{
+use arm_law::choices::{
     DIAGNOSTIC, FAULT, FRAME, LAW, SOURCE, SPACE, STATE, TARE_FAILURE, TARE_STATE, TORQUE_LIMITING,
 };
 use arm_law::supervision::{Diagnostic, State};

@@ -43,11 +43,11 @@ fn the_start_value_lies_below_what_the_scenarios_meet_and_above_a_nearly_straigh
 fn the_nominal_s_speed_falls_as_said() {
     let settled = |q_3: f64| {
         let mut c = initialized(|c| {
-            c.q = [0.0, -0.8, q_3];
-            (c.f_h, c.law) = ([0.0, 5.0, 0.0], 1); // no reaction: the nominal alone
+            c.inputs.q = [0.0, -0.8, q_3];
+            (c.inputs.f_h, c.parameters.law) = ([0.0, 5.0, 0.0], 1); // no reaction: the nominal alone
         });
         (0..4000).for_each(|k| tick(&mut c, k));
-        (c.dp_n[1], c.sigma_min, c.slowed)
+        (c.outputs.dp_n[1], c.outputs.sigma_min, c.outputs.slowed != 0)
     };
     let (v, _, slowed) = settled(1.7);
     assert!((v - 0.25).abs() < 1e-6 && !slowed, "{v}"); // 5/20 m/s; 4 s are 16 time constants
@@ -59,7 +59,7 @@ fn the_nominal_s_speed_falls_as_said() {
 
 /// Pulled straight for 4 s, forward and up, then back for 8 s: the least sigma_min, the last one, the most energy created.
 fn pulled_straight(singularity: Singularity) -> (f64, f64, f64) {
-    let mut c = initialized(|c| c.singularity = singularity);
+    let mut c = initialized(|c| c.parameters.singularity = singularity);
     let mut robot = Robot::at_the_start();
     let (mut least, mut most) = (f64::MAX, f64::MIN);
     for k in 0..12_000 {
@@ -69,11 +69,11 @@ fn pulled_straight(singularity: Singularity) -> (f64, f64, f64) {
             [-6.0, 0.0, 0.0]
         };
         close_the_loop(&mut c, &mut robot, k, f_h);
-        assert_eq!(c.slowed, c.sigma_min < singularity.sigma_slow);
-        least = least.min(c.sigma_min);
-        most = most.max(c.energy.G);
+        assert_eq!(c.outputs.slowed != 0, c.outputs.sigma_min < singularity.sigma_slow);
+        least = least.min(c.outputs.sigma_min);
+        most = most.max(c.outputs.G);
     }
-    (least, c.sigma_min, most)
+    (least, c.outputs.sigma_min, most)
 }
 
 /// Without it the arm is pulled straight and stays so: what f_max leaves of a pull along the arm is less than the elbow's
@@ -94,24 +94,24 @@ fn it_slows_before_the_arm_is_straight_and_lets_it_out_again_and_only_dissipates
 #[test]
 fn at_the_singularity_itself_everything_stays_finite() {
     let mut c = initialized(|c| {
-        c.q = [0.3, -0.7, 0.0];
-        c.f_h = [20.0, -20.0, 20.0];
+        c.inputs.q = [0.3, -0.7, 0.0];
+        c.inputs.f_h = [20.0, -20.0, 20.0];
     });
-    assert_eq!(c.sigma_min, 0.0);
+    assert_eq!(c.outputs.sigma_min, 0.0);
     (0..(1.0 / T) as u32).for_each(|k| tick(&mut c, k));
-    assert!(c.slowed && c.f_a.iter().all(|f_a| f_a.is_finite()));
+    assert!(c.outputs.slowed != 0 && c.outputs.f_a.iter().all(|f_a| f_a.is_finite()));
 }
 
 /// Clipped joints and no inverse of J: f_a is then what was asked for.
 #[test]
 fn clipping_at_the_singularity_itself_is_finite_too() {
     let mut c = initialized(|c| {
-        (c.law, c.torque_limiting) = (2, 2);
-        c.singularity = FREE;
-        c.q = [0.0, 0.0, 0.0];
-        c.f_h = [0.0, 0.0, 20.0];
+        (c.parameters.law, c.parameters.torque_limiting) = (2, 2);
+        c.parameters.singularity = FREE;
+        c.inputs.q = [0.0, 0.0, 0.0];
+        c.inputs.f_h = [0.0, 0.0, 20.0];
     });
     (0..4000).for_each(|k| tick(&mut c, k));
-    assert!(c.saturated && c.tau_a[1] == 259.0);
-    assert!(c.f_a.iter().all(|f_a| f_a.is_finite()) && c.f_a[2] > 259.0 / 0.68);
+    assert!(c.outputs.saturated != 0 && c.outputs.tau_a[1] == 259.0);
+    assert!(c.outputs.f_a.iter().all(|f_a| f_a.is_finite()) && c.outputs.f_a[2] > 259.0 / 0.68);
 }

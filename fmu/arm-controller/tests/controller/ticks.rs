@@ -5,7 +5,7 @@ use crate::{initialized, step};
 #[test]
 fn odd_step_sizes_run_the_same_ticks_as_one_step_a_tick() {
     let run = |h: f64, steps: u32| {
-        let mut controller = initialized(|c| c.f_h = [3.0, -2.0, 5.0]);
+        let mut controller = initialized(|c| c.inputs.f_h = [3.0, -2.0, 5.0]);
         (0..steps).for_each(|k| step(&mut controller, k, h));
         controller
     };
@@ -17,8 +17,8 @@ fn odd_step_sizes_run_the_same_ticks_as_one_step_a_tick() {
     // Between two ticks outputs hold: 0.02975 s to 0.03 s contains none.
     let mut between = run(0.00025, 119);
     assert_eq!(between.tick, 29);
-    between.f_h = [-100.0; 3];
-    between.q = [0.0; 3];
+    between.inputs.f_h = [-100.0; 3];
+    between.inputs.q = [0.0; 3];
     step(&mut between, 119, 0.00025);
-    assert_eq!((between.tau_a, between.p), (reference.tau_a, reference.p));
+    assert_eq!((between.outputs.tau_a, between.outputs.p), (reference.outputs.tau_a, reference.outputs.p));
 }

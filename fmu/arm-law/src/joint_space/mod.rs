@@ -41,6 +41,6 @@ pub mod law;
 pub mod midpoint;
 pub mod stored;
 
-pub use gains::JointGains;
+pub use gains::{JointGains, JointSettings};
 pub use joints::{Committed, JointRequest, Joints, Proposal, Sensed};
 pub use law::{JointParameters, JointSpace, Nominal};

@@ -4,62 +4,69 @@
 //! that the yaw axis does not couple with the two pitch axes: M_n is block diagonal, 1 + 2, and depends on q₂, q₃ only.
 
 use crate::kinematics::Kinematics;
-use admittance::parameters::{FINITE, NOT_NEGATIVE, POSITIVE, check};
+use admittance::parameters::in_range;
 use admittance::{ParameterError, Real, real};
+use declaration::check::Expected;
+use declaration::{Rows, Start};
 use nalgebra::{Matrix3, Vector3};
 
 /// A link of the nominal arm, in the link's frame: origin on its joint's axis, x along it, z up when it is level.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Rows, Start)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[repr(C)]
 pub struct Link {
-    /// Mass, kg.
+    /// Mass of each link of the nominal arm, which has the lengths kinematics.* and no weight.
+    #[parameter(125, name = "nominal.m[i]", unit = KILOGRAM, range = NOT_NEGATIVE)]
     pub m: Real,
-    /// Centre of mass along the link, m.
+    /// Centre of mass of each nominal link along it, from its joint's axis.
+    #[parameter(126, name = "nominal.x[i]", unit = METRE)]
     pub x: Real,
-    /// Centre of mass across the link, upwards when it is level, m.
+    /// Centre of mass of each nominal link across it, upwards when it is level.
+    #[parameter(127, name = "nominal.z[i]", unit = METRE)]
     pub z: Real,
-    /// Moment of inertia about x through the centre of mass, kg·m².
+    /// Moment of inertia of each nominal link about x through its centre of mass.
+    #[parameter(128, name = "nominal.I_xx[i]", unit = KILOGRAM_SQUARE_METRE, range = NOT_NEGATIVE)]
     pub I_xx: Real,
-    /// Moment of inertia about y through the centre of mass, kg·m².
+    /// Moment of inertia of each nominal link about y through its centre of mass.
+    #[parameter(129, name = "nominal.I_yy[i]", unit = KILOGRAM_SQUARE_METRE, range = NOT_NEGATIVE)]
     pub I_yy: Real,
-    /// Moment of inertia about z through the centre of mass, kg·m².
+    /// Moment of inertia of each nominal link about z through its centre of mass.
+    #[parameter(130, name = "nominal.I_zz[i]", unit = KILOGRAM_SQUARE_METRE, range = NOT_NEGATIVE)]
     pub I_zz: Real,
-    /// Element xz of the inertia matrix, −∫ x z dm, kg·m².
+    /// Element xz of each nominal link's inertia matrix, the negative product of inertia.
+    #[parameter(131, name = "nominal.I_xz[i]", unit = KILOGRAM_SQUARE_METRE)]
     pub I_xz: Real,
 }
 
-/// What the nominal arm is made of. Its lengths are those of the kinematics.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// What the nominal arm is made of. Its lengths are those of the kinematics. The start values: half the mass of the
+/// exoskeleton arm's links and 0.4 kg·m² at each joint. At the start pose M_n is 0.53 and [0.68 0.06; 0.06 0.46] kg·m²; the
+/// robot's, with its reflected rotors, is 3 to 8 kg·m².
+#[derive(Clone, Copy, Debug, PartialEq, Rows, Start)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[repr(C)]
 pub struct NominalArm {
     /// The three links.
+    #[part(each)]
+    #[start([
+        link(2.0, (0.03, 0.02), [0.006, 0.006, 0.005, 0.0]),
+        link(1.75, (0.20, 0.01), [0.003, 0.0175, 0.017, 0.0005]),
+        link(1.25, (0.18, -0.03), [0.002, 0.014, 0.0135, -0.0005]),
+    ])]
     pub links: [Link; 3],
-    /// Inertia of each joint about its own axis, as the joint feels it, kg·m², > 0. It keeps M_n positive definite in
-    /// every pose, whatever the links are.
-    pub rotor: Vector3<Real>,
+    /// Inertia of each nominal joint about its own axis, as the joint feels it.
+    #[parameter(132, name = "nominal.rotor[i]", unit = KILOGRAM_SQUARE_METRE, range = POSITIVE, start = [0.4; 3])]
+    pub rotor: [Real; 3],
 }
 
-impl Default for NominalArm {
-    /// Half the mass of the exoskeleton arm's links and 0.4 kg·m² at each joint. At the start pose M_n is 0.53 and
-    /// [0.68 0.06; 0.06 0.46] kg·m²; the robot's, with its reflected rotors, is 3 to 8 kg·m².
-    fn default() -> Self {
-        let link = |m, (x, z), [I_xx, I_yy, I_zz, I_xz]: [Real; 4]| Link {
-            m,
-            x,
-            z,
-            I_xx,
-            I_yy,
-            I_zz,
-            I_xz,
-        };
-        Self {
-            links: [
-                link(2.0, (0.03, 0.02), [0.006, 0.006, 0.005, 0.0]),
-                link(1.75, (0.20, 0.01), [0.003, 0.0175, 0.017, 0.0005]),
-                link(1.25, (0.18, -0.03), [0.002, 0.014, 0.0135, -0.0005]),
-            ],
-            rotor: Vector3::repeat(0.4),
-        }
+const fn link(m: Real, (x, z): (Real, Real), [I_xx, I_yy, I_zz, I_xz]: [Real; 4]) -> Link {
+    Link {
+        m,
+        x,
+        z,
+        I_xx,
+        I_yy,
+        I_zz,
+        I_xz,
     }
 }
 
@@ -129,26 +136,14 @@ impl NominalArm {
     /// # Errors
     /// The first value out of its range, with the link's number.
     pub fn check(&self) -> Result<(), ParameterError> {
-        for (i, (link, rotor)) in (1..).zip(self.links.iter().zip(&self.rotor)) {
-            check(
-                Some(i),
-                &[
-                    ("nominal.m", link.m, NOT_NEGATIVE),
-                    ("nominal.x", link.x, FINITE),
-                    ("nominal.z", link.z, FINITE),
-                    ("nominal.I_xx", link.I_xx, NOT_NEGATIVE),
-                    ("nominal.I_yy", link.I_yy, NOT_NEGATIVE),
-                    ("nominal.I_zz", link.I_zz, NOT_NEGATIVE),
-                    ("nominal.I_xz", link.I_xz, FINITE),
-                    ("nominal.rotor", *rotor, POSITIVE),
-                ],
-            )?;
+        in_range(self)?;
+        for (i, link) in (1..).zip(&self.links) {
             if link.I_xz * link.I_xz > link.I_xx * link.I_zz {
                 return Err(ParameterError::OutOfRange {
                     name: "nominal.I_xz",
                     axis: Some(i),
                     value: link.I_xz,
-                    expected: "at most sqrt(I_xx I_zz) in absolute value",
+                    expected: Expected::Text("at most sqrt(I_xx I_zz) in absolute value"),
                 });
             }
         }

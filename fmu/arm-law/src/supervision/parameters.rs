@@ -1,47 +1,44 @@
 //! Times and thresholds.
 
-use admittance::parameters::{NOT_NEGATIVE, POSITIVE, check};
+use admittance::parameters::{check, in_range};
 use admittance::{ParameterError, Real};
+use declaration::check::Expected;
+use declaration::range::POSITIVE;
+use declaration::{Rows, Start};
 
-/// What can be set. Times are rounded to whole ticks.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// What can be set. Times are rounded to whole ticks. The start values: half a second to engage and to stop, a heartbeat of
+/// 10 Hz or more, no hold but by request.
+#[derive(Clone, Copy, Debug, PartialEq, Rows, Start)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[repr(C)]
 pub struct Parameters {
-    /// For how long sensors and heartbeat must have been good before the controller is ready, s.
+    /// For how long sensors and heartbeat must have been good before the controller is ready.
+    #[parameter(108, unit = SECOND, range = NOT_NEGATIVE, start = 0.1)]
     pub init_time: Real,
-    /// Duration over which the authority rises from 0 to 1, s; one tick at least.
+    /// Time in which the authority rises from 0 to 1; one tick at least.
+    #[parameter(109, unit = SECOND, range = NOT_NEGATIVE, start = 0.5)]
     pub engage_time: Real,
-    /// Duration over which it falls to 0, s; one tick at least.
+    /// Time in which the authority falls to 0 in a soft stop; one tick at least.
+    #[parameter(110, unit = SECOND, range = NOT_NEGATIVE, start = 0.5)]
     pub soft_stop_time: Real,
-    /// Time within which the heartbeat must change, s; 0 = it is not watched.
+    /// Time within which heartbeat must change; 0 = it is not watched.
+    #[parameter(111, unit = SECOND, range = NOT_NEGATIVE, start = 0.1)]
     pub heartbeat_timeout: Real,
-    /// Magnitude of f_h below which the hand is at rest, N; 0 = the controller never holds by itself.
+    /// Magnitude of f_h below which the hand is at rest and the controller holds by itself; 0 = it never does.
+    #[parameter(112, unit = NEWTON, range = NOT_NEGATIVE)]
     pub hold_enter: Real,
-    /// Magnitude of f_h above which it no longer is, N, ≥ `hold_enter`.
+    /// Magnitude of f_h above which the hand is no longer at rest; not below hold_enter.
+    #[parameter(113, unit = NEWTON, range = NOT_NEGATIVE)]
     pub hold_leave: Real,
-    /// For how long f_h must have been below `hold_enter`, s.
+    /// For how long f_h must have been below hold_enter before the hand is at rest.
+    #[parameter(114, unit = SECOND, range = NOT_NEGATIVE, start = 0.5)]
     pub hold_time: Real,
-    /// Duration over which a moving nominal is brought to rest, s; one tick at least.
+    /// Time in which supervision brings a moving nominal to rest; one tick at least.
+    #[parameter(115, unit = SECOND, range = NOT_NEGATIVE, start = 0.05)]
     pub hold_brake: Real,
-    /// For how long limits may act before they are reported, s; 0 = they are not.
+    /// For how long limits may act before diagnostic reports it; 0 = it does not.
+    #[parameter(116, unit = SECOND, range = NOT_NEGATIVE)]
     pub saturation_time: Real,
-}
-
-impl Default for Parameters {
-    /// Half a second to engage and to stop, a heartbeat of 10 Hz or more, no hold but by request.
-    fn default() -> Self {
-        Self {
-            init_time: 0.1,
-            engage_time: 0.5,
-            soft_stop_time: 0.5,
-            heartbeat_timeout: 0.1,
-            hold_enter: 0.0,
-            hold_leave: 0.0,
-            hold_time: 0.5,
-            hold_brake: 0.05,
-            saturation_time: 0.0,
-        }
-    }
 }
 
 impl Parameters {
@@ -50,26 +47,13 @@ impl Parameters {
     /// # Errors
     /// The first parameter out of its range.
     pub fn check(&self) -> Result<(), ParameterError> {
-        check(
-            None,
-            &[
-                ("init_time", self.init_time, NOT_NEGATIVE),
-                ("engage_time", self.engage_time, NOT_NEGATIVE),
-                ("soft_stop_time", self.soft_stop_time, NOT_NEGATIVE),
-                ("heartbeat_timeout", self.heartbeat_timeout, NOT_NEGATIVE),
-                ("hold_enter", self.hold_enter, NOT_NEGATIVE),
-                ("hold_leave", self.hold_leave, NOT_NEGATIVE),
-                ("hold_time", self.hold_time, NOT_NEGATIVE),
-                ("hold_brake", self.hold_brake, NOT_NEGATIVE),
-                ("saturation_time", self.saturation_time, NOT_NEGATIVE),
-            ],
-        )?;
+        in_range(self)?;
         if self.hold_leave < self.hold_enter {
             return Err(ParameterError::OutOfRange {
                 name: "hold_leave",
                 axis: None,
                 value: self.hold_leave,
-                expected: "a value not less than hold_enter",
+                expected: Expected::Text("a value not less than hold_enter"),
             });
         }
         Ok(())

@@ -4,27 +4,47 @@ use super::deadband::deadband;
 use super::filter::LowPass;
 use super::tare::{Tare, TareSettings};
 use super::validity::{Checks, Validity};
-use super::{Fault, TareState, Tool, Wrench};
-use admittance::parameters::{FINITE, NOT_NEGATIVE, check};
+use super::{Fault, Frame, Mount, TareState, Tool, Wrench};
+use crate::choices::{FRAME, LINK_3, SOURCE, WRENCH};
+use admittance::parameters::in_range;
 use admittance::{ParameterError, Real};
+use declaration::{Rows, Start};
 use nalgebra::{Matrix3, Vector3};
 
-/// What the sensor is like and what is made of it.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+/// What the sensor is like and what is made of its reading: the parameters `ft.*`. At the start a force in the base frame, as
+/// it is.
+#[derive(Clone, Copy, Debug, PartialEq, Rows, Start)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[repr(C)]
 pub struct Sensor {
+    /// Where the force of the human is read.
+    #[parameter(76, name = "ft.source", items = SOURCE, start = 1)]
+    pub source: i32,
+    /// Frame in which f_h is given.
+    #[parameter(39, name = "ft.frame", items = FRAME, start = 1)]
+    pub frame: i32,
+    /// Orientation of the sensor in link 3's frame under ft.source 2: roll, pitch, yaw, turns about link 3's fixed axes
+    /// x, then y, then z.
+    #[parameter(77, name = "ft.mount[i]", unit = RADIAN)]
+    pub mount: [Real; 3],
+    /// Lever arm: the handle from the sensor's origin; sensor frame.
+    #[parameter(78, name = "ft.handle[i]", unit = METRE)]
+    pub handle: [Real; 3],
     /// What hangs on it.
+    #[part]
     pub tool: Tool,
-    /// Lever arm: the handle from the sensor's origin, sensor frame, m.
-    pub handle: Vector3<Real>,
+    /// Length by which every force is shortened, and below which it is 0; 0 = off.
+    #[parameter(82, name = "ft.deadband", unit = NEWTON, range = NOT_NEGATIVE)]
+    pub deadband: Real,
+    /// Corner frequency of a first-order low pass on the force; it costs phase; 0 = off.
+    #[parameter(83, name = "ft.cutoff", unit = HERTZ, range = NOT_NEGATIVE)]
+    pub cutoff: Real,
     /// How it may fail.
+    #[part]
     pub checks: Checks,
     /// How its bias is found.
+    #[part]
     pub tare: TareSettings,
-    /// Corner frequency of the low pass, Hz; 0 = off.
-    pub cutoff: Real,
-    /// Width of the deadband, N; 0 = off.
-    pub deadband: Real,
 }
 
 /// One sample.
@@ -67,6 +87,15 @@ pub struct Conditioned {
     pub tare: TareState,
 }
 
+impl Conditioned {
+    /// Nobody has touched anything.
+    pub const NOTHING: Self = Self {
+        hand: Wrench::ZERO,
+        fault: None,
+        tare: TareState::Off,
+    };
+}
+
 /// The conditioning between two samples.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -83,19 +112,18 @@ impl Sensor {
     /// # Errors
     /// The first value out of its range.
     pub fn check(&self) -> Result<(), ParameterError> {
-        self.tool.check()?;
-        self.checks.check()?;
-        self.tare.check()?;
-        for (axis, handle) in (1..).zip(&self.handle) {
-            check(Some(axis), &[("ft.handle", *handle, FINITE)])?;
+        in_range(self)
+    }
+
+    /// Whose axes the reading is along. The values have been checked.
+    pub fn sensed_in(&self) -> Frame {
+        match (self.source, self.frame) {
+            (WRENCH, _) => Frame::Mounted(Mount {
+                rpy: self.mount.into(),
+            }),
+            (_, LINK_3) => Frame::Link3,
+            _ => Frame::Base,
         }
-        check(
-            None,
-            &[
-                ("ft.cutoff", self.cutoff, NOT_NEGATIVE),
-                ("ft.deadband", self.deadband, NOT_NEGATIVE),
-            ],
-        )
     }
 }
 
@@ -128,7 +156,7 @@ impl Conditioner {
                 tare,
             };
         }
-        let hand = (unladen - self.tare.bias()).about(&self.sensor.handle);
+        let hand = (unladen - self.tare.bias()).about(&self.sensor.handle.into());
         let hand = self.filter.step(&hand);
         Conditioned {
             hand: Wrench {

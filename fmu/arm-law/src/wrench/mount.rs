@@ -1,7 +1,8 @@
 //! How the sensor sits on link 3.
 
-use admittance::parameters::{FINITE, check};
+use admittance::parameters::check;
 use admittance::{ParameterError, Real, real};
+use declaration::range::FINITE;
 use nalgebra::{Matrix3, Vector3};
 
 /// Orientation of the sensor in link 3's frame.

@@ -15,8 +15,8 @@
 //! `max` to what the sensor may really drift.
 
 use super::{Fault, Wrench};
-use admittance::parameters::{NOT_NEGATIVE, POSITIVE, check};
-use admittance::{ParameterError, Real, real};
+use admittance::{Real, real};
+use declaration::{Rows, Start};
 use nalgebra::Vector3;
 
 /// How far a tare has come.
@@ -48,36 +48,30 @@ pub enum TareFailure {
     TooLarge = 4,
 }
 
-/// What a tare asks for.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// What a tare asks for. The start values: half a second; the least count of a 14-bit encoder three times over; a hand's tremor
+/// does not pass.
+#[derive(Clone, Copy, Debug, PartialEq, Rows, Start)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[repr(C)]
 pub struct TareSettings {
-    /// For how long the samples are taken, s.
+    /// Time for which a tare takes samples.
+    #[parameter(91, name = "ft.tare_time", unit = SECOND, range = POSITIVE, start = 0.5)]
     pub time: Real,
-    /// How far a joint may move meanwhile, rad.
+    /// Motion of a joint beyond which a tare fails.
+    #[parameter(92, name = "ft.tare_motion", unit = RADIAN, range = NOT_NEGATIVE, start = 1.2e-3)]
     pub motion: Real,
-    /// Largest standard deviation of a force component, N; 0 = any.
+    /// Standard deviation of a force component beyond which a tare fails; 0 = any.
+    #[parameter(93, name = "ft.tare_spread_force", unit = NEWTON, range = NOT_NEGATIVE, start = 0.5)]
     pub spread_force: Real,
-    /// Largest standard deviation of a moment component, N·m; 0 = any.
+    /// Standard deviation of a moment component beyond which a tare fails; 0 = any.
+    #[parameter(94, name = "ft.tare_spread_torque", unit = NEWTON_METRE, range = NOT_NEGATIVE, start = 0.05)]
     pub spread_torque: Real,
-    /// Largest force component of the bias, N; 0 = any.
+    /// Force component of the bias beyond which a tare fails: somebody leans on the handle; 0 = any.
+    #[parameter(95, name = "ft.tare_max_force", unit = NEWTON, range = NOT_NEGATIVE, start = 20.0)]
     pub max_force: Real,
-    /// Largest moment component of the bias, N·m; 0 = any.
+    /// Moment component of the bias beyond which a tare fails: somebody leans on the handle; 0 = any.
+    #[parameter(96, name = "ft.tare_max_torque", unit = NEWTON_METRE, range = NOT_NEGATIVE, start = 2.0)]
     pub max_torque: Real,
-}
-
-impl Default for TareSettings {
-    /// Half a second; the least count of a 14-bit encoder three times over; a hand's tremor does not pass.
-    fn default() -> Self {
-        Self {
-            time: 0.5,
-            motion: 1.2e-3,
-            spread_force: 0.5,
-            spread_torque: 0.05,
-            max_force: 20.0,
-            max_torque: 2.0,
-        }
-    }
 }
 
 /// The tare between two samples.
@@ -121,26 +115,6 @@ impl TareFailure {
     /// The number by which the interface knows it; 0 stands for none.
     pub fn number(self) -> i32 {
         self as i32
-    }
-}
-
-impl TareSettings {
-    /// Whether a tare can be made so.
-    ///
-    /// # Errors
-    /// The first value out of its range.
-    pub fn check(&self) -> Result<(), ParameterError> {
-        check(
-            None,
-            &[
-                ("ft.tare_time", self.time, POSITIVE),
-                ("ft.tare_motion", self.motion, NOT_NEGATIVE),
-                ("ft.tare_spread_force", self.spread_force, NOT_NEGATIVE),
-                ("ft.tare_spread_torque", self.spread_torque, NOT_NEGATIVE),
-                ("ft.tare_max_force", self.max_force, NOT_NEGATIVE),
-                ("ft.tare_max_torque", self.max_torque, NOT_NEGATIVE),
-            ],
-        )
     }
 }
 

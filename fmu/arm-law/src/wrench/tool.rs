@@ -1,31 +1,26 @@
 //! The weight of what hangs on the sensor.
 
 use super::Wrench;
-use admittance::parameters::{FINITE, NOT_NEGATIVE, check};
+use admittance::parameters::in_range;
 use admittance::{ParameterError, Real};
+use declaration::{Rows, Start};
 use nalgebra::{Matrix3, Vector3};
 
-/// Everything beyond the sensor that the hand does not carry: handle, adapter, half of the sensor.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// Everything beyond the sensor that the hand does not carry: handle, adapter, half of the sensor. At the start there is none,
+/// on an arm that stands upright.
+#[derive(Clone, Copy, Debug, PartialEq, Rows, Start)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[repr(C)]
 pub struct Tool {
-    /// Mass, kg; 0 = no tool.
+    /// Mass of the tool behind the sensor, whose weight is taken off; 0 = none.
+    #[parameter(79, name = "ft.mass", unit = KILOGRAM, range = NOT_NEGATIVE)]
     pub mass: Real,
-    /// Centre of gravity from the sensor's origin, sensor frame, m.
-    pub cog: Vector3<Real>,
-    /// Acceleration of gravity, base frame, m/s².
-    pub gravity: Vector3<Real>,
-}
-
-impl Default for Tool {
-    /// No tool, on an arm that stands upright.
-    fn default() -> Self {
-        Self {
-            mass: 0.0,
-            cog: Vector3::zeros(),
-            gravity: Vector3::new(0.0, 0.0, -9.81),
-        }
-    }
+    /// Centre of gravity of the tool from the sensor's origin; sensor frame.
+    #[parameter(80, name = "ft.cog[i]", unit = METRE)]
+    pub cog: [Real; 3],
+    /// Acceleration of gravity; base frame.
+    #[parameter(81, name = "ft.gravity[i]", unit = METRE_PER_SECOND_SQUARED, start = [0.0, 0.0, -9.81])]
+    pub gravity: [Real; 3],
 }
 
 impl Tool {
@@ -39,10 +34,10 @@ impl Tool {
         if self.mass == 0.0 {
             return Wrench::ZERO; // and not −0, which a subtraction would not leave bit for bit
         }
-        let force = R.tr_mul(&self.gravity) * self.mass;
+        let force = R.tr_mul(&Vector3::from(self.gravity)) * self.mass;
         Wrench {
             force,
-            torque: self.cog.cross(&force),
+            torque: Vector3::from(self.cog).cross(&force),
         }
     }
 
@@ -51,13 +46,6 @@ impl Tool {
     /// # Errors
     /// The first value out of its range.
     pub fn check(&self) -> Result<(), ParameterError> {
-        check(None, &[("ft.mass", self.mass, NOT_NEGATIVE)])?;
-        for (axis, (cog, gravity)) in (1..).zip(self.cog.iter().zip(&self.gravity)) {
-            check(
-                Some(axis),
-                &[("ft.cog", *cog, FINITE), ("ft.gravity", *gravity, FINITE)],
-            )?;
-        }
-        Ok(())
+        in_range(self)
     }
 }

@@ -20,8 +20,8 @@
 //! back from a dropout is one.
 
 use super::Wrench;
-use admittance::parameters::{NOT_NEGATIVE, check};
-use admittance::{ParameterError, Real, real};
+use admittance::{Real, real};
+use declaration::{Rows, Start};
 
 /// What is wrong with the sensor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -40,39 +40,33 @@ pub enum Fault {
     Dropout = 5,
 }
 
-/// The checks; 0 = off.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// The checks. At the start all are off but for NaN and infinity.
+#[derive(Clone, Copy, Debug, PartialEq, Rows, Start)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[repr(C)]
 pub struct Checks {
-    /// Absolute value at which a force component is over range, N.
+    /// Absolute value at which a force component is over range; 0 = off.
+    #[parameter(84, name = "ft.range_force", unit = NEWTON, range = NOT_NEGATIVE)]
     pub range_force: Real,
-    /// Absolute value at which a moment component is over range, N·m.
+    /// Absolute value at which a moment component is over range; 0 = off.
+    #[parameter(85, name = "ft.range_torque", unit = NEWTON_METRE, range = NOT_NEGATIVE)]
     pub range_torque: Real,
-    /// Rate at which a force component is too fast, N/s.
+    /// Rate at which a force component is a fault; 0 = off.
+    #[parameter(86, name = "ft.rate_force", unit = NEWTON_PER_SECOND, range = NOT_NEGATIVE)]
     pub rate_force: Real,
-    /// Rate at which a moment component is too fast, N·m/s.
+    /// Rate at which a moment component is a fault; 0 = off.
+    #[parameter(87, name = "ft.rate_torque", unit = NEWTON_METRE_PER_SECOND, range = NOT_NEGATIVE)]
     pub rate_torque: Real,
-    /// Repetitions of a reading after which the sensor is stuck.
-    pub stuck_samples: u32,
-    /// Readings of exactly 0 after which the sensor has dropped out.
-    pub dropout_samples: u32,
-    /// For how long the signal must be sound before it is used again, s.
+    /// Repetitions of a reading, bit for bit, after which the sensor is stuck; 0 = off. For sensors with noise that are
+    /// read at every tick.
+    #[parameter(88, name = "ft.stuck_samples", integers = 0..)]
+    pub stuck_samples: i32,
+    /// Readings of exactly 0 on all axes after which the sensor has dropped out; 0 = off. For sensors with noise.
+    #[parameter(89, name = "ft.dropout_samples", integers = 0..)]
+    pub dropout_samples: i32,
+    /// Time for which the signal must be sound before a fault is over.
+    #[parameter(90, name = "ft.recovery_time", unit = SECOND, range = NOT_NEGATIVE, start = 0.1)]
     pub recovery_time: Real,
-}
-
-impl Default for Checks {
-    /// All off but for NaN and infinity; recovery within 0.1 s.
-    fn default() -> Self {
-        Self {
-            range_force: 0.0,
-            range_torque: 0.0,
-            rate_force: 0.0,
-            rate_torque: 0.0,
-            stuck_samples: 0,
-            dropout_samples: 0,
-            recovery_time: 0.1,
-        }
-    }
 }
 
 /// The checks between two samples.
@@ -114,25 +108,6 @@ impl Fault {
             Self::Stuck => "stuck",
             Self::Dropout => "dropout",
         }
-    }
-}
-
-impl Checks {
-    /// Whether these can be made.
-    ///
-    /// # Errors
-    /// The first value out of its range.
-    pub fn check(&self) -> Result<(), ParameterError> {
-        check(
-            None,
-            &[
-                ("ft.range_force", self.range_force, NOT_NEGATIVE),
-                ("ft.range_torque", self.range_torque, NOT_NEGATIVE),
-                ("ft.rate_force", self.rate_force, NOT_NEGATIVE),
-                ("ft.rate_torque", self.rate_torque, NOT_NEGATIVE),
-                ("ft.recovery_time", self.recovery_time, NOT_NEGATIVE),
-            ],
-        )
     }
 }
 
@@ -196,9 +171,9 @@ impl Validity {
             Some(Fault::Dropout)
         } else if reaches(raw, range_force, range_torque) {
             Some(Fault::OverRange)
-        } else if dropout_samples > 0 && self.zeros >= dropout_samples {
+        } else if reached(self.zeros, dropout_samples) {
             Some(Fault::Dropout)
-        } else if stuck_samples > 0 && self.repetitions >= stuck_samples {
+        } else if reached(self.repetitions, stuck_samples) {
             Some(Fault::Stuck)
         } else if reaches(&change, rate_force * self.T, rate_torque * self.T) {
             Some(Fault::Rate)
@@ -217,4 +192,9 @@ fn counted(count: u32, again: bool) -> u32 {
 fn reaches(wrench: &Wrench, force: Real, torque: Real) -> bool {
     let beyond = |x: &Real, limit: Real| limit > 0.0 && real::abs(*x) >= limit;
     wrench.force.iter().any(|x| beyond(x, force)) || wrench.torque.iter().any(|x| beyond(x, torque))
+}
+
+/// Whether there are as many samples as are `needed`; 0 is none.
+fn reached(count: u32, needed: i32) -> bool {
+    u32::try_from(needed).is_ok_and(|needed| needed > 0 && count >= needed)
 }

@@ -2,9 +2,9 @@
 
 #![allow(non_snake_case, reason = "the paper's symbols")]
 
+use admittance::one_axis::{AxisInputs, AxisOutputs, AxisParameters};
 use admittance_f64::{Admittance, Gains, Settings};
-use exo_law_f32::axis::AxisInputs;
-use exo_law_f32::axis::{AxisOutputs, AxisParameters, AxisState, exo_axis_init, exo_axis_tick};
+use exo_law_f32::axis::{AxisState, exo_axis_init, exo_axis_tick};
 use exo_law_f32::refusal::Status;
 use nalgebra::Vector1;
 use std::mem::MaybeUninit;

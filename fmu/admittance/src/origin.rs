@@ -10,18 +10,19 @@ use nalgebra::SVector;
 
 /// The place q_0 from which positions are counted; `None`: from zero, which changes no bit.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Origin<const N: usize> {
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Origin<const N: usize> {
     q_0: Option<SVector<f64, N>>,
     engaged: bool,
 }
 
 /// A move of the origin.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Move<const N: usize> {
+pub struct Move<const N: usize> {
     /// To where.
-    pub(crate) q_0: SVector<Real, N>,
+    pub q_0: SVector<Real, N>,
     /// By how much.
-    pub(crate) by: SVector<Real, N>,
+    pub by: SVector<Real, N>,
 }
 
 impl<const N: usize> Default for Origin<N> {
@@ -36,12 +37,12 @@ impl<const N: usize> Default for Origin<N> {
 
 impl<const N: usize> Origin<N> {
     /// The place, unless it is zero.
-    pub(crate) fn place(&self) -> Option<&SVector<f64, N>> {
+    pub fn place(&self) -> Option<&SVector<f64, N>> {
         self.q_0.as_ref()
     }
 
     /// Moves to the positions `q` of a tick at which the law may engage, if it is out of the loop.
-    pub(crate) fn moves(&mut self, q: &SVector<f64, N>, engage: bool) -> Option<Move<N>> {
+    pub fn moves(&mut self, q: &SVector<f64, N>, engage: bool) -> Option<Move<N>> {
         let is_known = q.iter().all(|q| q.is_finite());
         if !(cfg!(feature = "f32") && engage && !self.engaged && is_known) {
             return None;
@@ -54,12 +55,12 @@ impl<const N: usize> Origin<N> {
     }
 
     /// What has become of the tick.
-    pub(crate) fn ticked(&mut self, engaged: bool) {
+    pub fn ticked(&mut self, engaged: bool) {
         self.engaged = engaged;
     }
 
     /// q − q_0.
-    pub(crate) fn counted(&self, q: &SVector<f64, N>) -> SVector<Real, N> {
+    pub fn counted(&self, q: &SVector<f64, N>) -> SVector<Real, N> {
         self.q_0.map_or(*q, |q_0| q - q_0).map(|q| q as Real)
     }
 }

@@ -1,49 +1,20 @@
 //! Choices, states and faults: the items of the variables that hold one of a list.
 
-use arm_law::supervision::{Diagnostic, State};
+use crate::supervision::{Diagnostic, State};
 use declaration::{Enumeration, Item};
+
+/// `space`: the nominal is a mass at the handle.
+pub const TASK: i32 = 1;
+/// `space`: the nominal is an arm.
+pub const JOINT: i32 = 2;
+/// `ft.frame`: link 3's.
+pub const LINK_3: i32 = 2;
+/// `ft.source`: the wrench ft.force, ft.torque, in the frame of a sensor that ft.mount turns.
+pub const WRENCH: i32 = 2;
 
 const fn item(value: i32, name: &'static str, about: &'static str) -> Item {
     Item { value, name, about }
 }
-
-/// The type of `law`.
-pub const LAW: Enumeration = Enumeration {
-    name: "Law",
-    about: "Admittance law: which reaction the nominal feels once the force is limited",
-    items: &[
-        item(
-            1,
-            "standard",
-            "admittance filter alone, no reaction on the nominal; sticks to walls",
-        ),
-        item(
-            2,
-            "passive",
-            "the paper's law: the nominal feels the unlimited coupling; creates energy once saturated",
-        ),
-        item(
-            3,
-            "passive_applied",
-            "the nominal feels what the torque limits leave of the force; the spring winds up and sticks",
-        ),
-        item(
-            4,
-            "passive_bounded",
-            "the nominal feels the limited force and the spring slips at f_max; passive and bounded",
-        ),
-        item(
-            5,
-            "natural",
-            "natural admittance control; not offered by this model",
-        ),
-        item(
-            6,
-            "sliding_mode",
-            "sliding-mode inner loop under a standard proxy; not offered by this model",
-        ),
-    ],
-};
 
 /// The type of `torque_limiting`.
 pub const TORQUE_LIMITING: Enumeration = Enumeration {

@@ -1,0 +1,82 @@
+//! What goes into a tick of the law of one axis and what comes out of it: inputs and outputs of TestbedController.fmu and of the
+//! C library, one row each.
+
+use crate::Real;
+use declaration::{Rows, Start};
+
+/// What is sensed and asked for at a tick.
+#[derive(Clone, Copy, Debug, PartialEq, Rows, Start)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[repr(C)]
+#[rows(discrete)]
+pub struct AxisInputs {
+    /// Sensed position of the robot; the wall lies on the positive side.
+    #[input(0, unit = METRE)]
+    pub q: f64,
+    /// Sensed force of the human on the robot, positive along q.
+    #[input(1, unit = NEWTON)]
+    pub tau_h: Real,
+    /// Whether the controller is in the loop. It engages at the first tick at which this is true, with q_n = q and dq_n
+    /// = 0; while it is false tau_a is 0.
+    #[input(2, boolean, start = 1)]
+    pub engage: i32,
+    /// Whether the nominal stays where it is: the coupling then carries any load within tau_max without drift; the laws
+    /// 1 to 4 in torque form only.
+    #[input(37, boolean)]
+    pub hold: i32,
+}
+
+/// What came of a tick; every value is the one at t_k.
+#[derive(Clone, Copy, Debug, PartialEq, Rows, Start)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[repr(C)]
+#[rows(discrete)]
+pub struct AxisOutputs {
+    /// Control force on the robot, positive along q, held until the next tick (eq:dob_input, limited).
+    #[output(3, unit = NEWTON)]
+    pub tau_a: Real,
+    /// K*y before any limit (eq:dob_input).
+    #[output(13, unit = NEWTON)]
+    pub tau_demand: Real,
+    /// Nominal position (eq:obs_dyn).
+    #[output(4, unit = METRE, from = ["q"])]
+    pub q_n: Real,
+    /// Nominal velocity (eq:obs_dyn).
+    #[output(5, unit = METRE_PER_SECOND)]
+    pub dq_n: Real,
+    /// Position error q_n - q, after the slip of passive_bounded.
+    #[output(6, unit = METRE)]
+    pub e_nr: Real,
+    /// Velocity of the robot as the law uses it: backward difference of q, 0 at the first tick.
+    #[output(12, unit = METRE_PER_SECOND)]
+    pub dq: Real,
+    /// Energy stored in nominal mass and coupling spring; 0 if alpha = 0, for which it is not defined.
+    #[output(9, name = "energy.H", unit = JOULE)]
+    pub H: Real,
+    /// Energy that the sampled law has created so far, negative: dissipated; 0 if alpha = 0.
+    #[output(10, name = "energy.G", unit = JOULE)]
+    pub G: Real,
+    /// Energy tank: energy.E_0 less what was created, refilled by dissipation up to energy.E_0; 0 if alpha = 0 and
+    /// under the laws natural and sliding_mode, for which no energy is defined.
+    #[output(11, name = "energy.tank", unit = JOULE, from = ["energy.E_0", "alpha", "law"], start = 10.0)]
+    pub tank: Real,
+    /// Share of the force that the energy budget left at this tick; 1 unless something is wrong.
+    #[output(39, name = "energy.share", start = 1.0)]
+    pub share: Real,
+    /// Whether tau_max leaves less than tau_demand.
+    #[output(7, boolean)]
+    pub saturated: i32,
+    /// Whether hold, dq_n_max or the position box kept the nominal back at this tick.
+    #[output(38, boolean)]
+    pub held: i32,
+    /// Whether the motion since the last tick exceeded v_max or a_max, to which the passivity argument is restricted.
+    #[output(15, boolean)]
+    pub outside_bounds: i32,
+    /// Whether the controller was in the loop at this tick.
+    #[output(14, boolean)]
+    pub engaged: i32,
+    /// Whether the tank is below 0: a motion beyond v_max and a_max cost more than it held; no force until it is
+    /// repaid.
+    #[output(40, name = "energy.debt", boolean)]
+    pub debt: i32,
+}
