@@ -1,11 +1,11 @@
-"""The assumptions table of docs/specification.md: sources from assumptions.toml, effects from assumptions.json, values and
-units from modelDescription/*.xml.
+"""The assumptions table of docs/specification.md: sources from assumptions.toml, effects from assumptions.json, values
+and units from modelDescription/*.xml.
 
 cd tests/system && python -m documents.assumptions
 """
 
 import json
-import math
+import re
 import xml.etree.ElementTree as ET
 from dataclasses import dataclass
 from pathlib import Path
@@ -39,7 +39,9 @@ def declared(plant: str) -> dict[str, Declared]:
         if variable.get("causality") == "parameter":
             kind = next(iter(variable))
             unit = kind.get("unit", "1")
-            found[variable.get("name", "")] = Declared(kind.get("start", ""), "" if unit == "1" else f" {unit}")
+            found[variable.get("name", "")] = Declared(
+                kind.get("start", ""), "" if unit == "1" else f" {unit.replace('.', '·')}"
+            )
     return found
 
 
@@ -56,7 +58,7 @@ def table(plant: str) -> str:
     lines = [
         ["parameter", "value", "source", *(figure.title for figure in figures)],
         ["---"] * (3 + len(figures)),
-        ["", "", "", *(number(measured[figure.id]["value"], digits=4) for figure in figures)],
+        ["", "", "*the figure itself*", *(number(measured[figure.id]["value"], digits=4) for figure in figures)],
     ]
     group = ""
     for parameter in study.parameter:
@@ -90,9 +92,9 @@ def _value(
 ) -> str:
     """Start value with unit, other values of the scenarios, and what was changed when not 25 %."""
     start, unit = known[name].start, known[name].unit
-    text = f"{start}{unit}"
     if start in ("true", "false"):
-        return text
+        return start
+    text = f"{number(float(start))}{unit}"
     others: dict[str, list[str]] = {}
     for figure in figures:
         value = measured[figure.id]["parameters"][name]
@@ -124,7 +126,7 @@ def percent(base: float, value: float | None) -> str:
 
 def number(value: float, *, digits: int = 6) -> str:
     """A number as the table writes it."""
-    return f"{value:.{digits}g}" if math.isfinite(value) else "–"
+    return re.sub(r"e([+-])0?", lambda sign: "e" + sign[1].strip("+"), f"{value:.{digits}g}").replace("-", "−")
 
 
 def filled(text: str) -> str:
