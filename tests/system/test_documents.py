@@ -111,6 +111,12 @@ def test_the_assumptions_table_has_every_parameter_once_and_all_its_effects(plan
         assert sorted(effects[figure.id]["parameters"]) == sorted(listed)
 
 
+def test_the_arm_starts_with_the_values_of_the_specification() -> None:
+    specified, declared = assumptions.specified(), assumptions.declared("ExoskeletonArm")
+    assert len(specified) == 3 * 16
+    assert {name: float(declared[name].start) for name in specified} == specified
+
+
 def test_the_specification_shows_the_table_as_it_is() -> None:
     text = assumptions.DOCUMENT.read_text(encoding="utf-8")
     assert assumptions.filled(text) == text, "cd tests/system && python -m documents.assumptions"

@@ -45,6 +45,18 @@ def declared(plant: str) -> dict[str, Declared]:
     return found
 
 
+def specified() -> dict[str, float]:
+    """What section 4 of the specification says of the arm's joints and links, by the FMU's names."""
+    _, text = DOCUMENT.read_text(encoding="utf-8").split("| by joint, or link |")
+    text, _ = text.split("\n\n", 1)
+    rows = re.findall(r"^\| `([\w.]+)` \| (\S+) \| (\S+) \| (\S+) \|.*\|$", text, flags=re.MULTILINE)
+    return {
+        f"{name}[{i}]": float(value.replace("−", "-"))
+        for name, *values in rows
+        for i, value in enumerate(values, start=1)
+    }
+
+
 def effects() -> dict[str, Any]:
     """What `exo sensitivity` has measured."""
     found: dict[str, Any] = json.loads(EFFECTS.read_text(encoding="utf-8"))

@@ -26,7 +26,7 @@ OWN = ("tests/system/documents", "tests/system/test_documents.py")
 MADE = {".git", ".venv", "target", "results", "__pycache__"}
 #: Beginnings of paths that are none of this repository: made, or inside an archive.
 ELSEWHERE = ("http", "#", "target/", "results", "binaries/", "documentation/", "resources/", "licenses/", "include/")
-# Without a folder, `wall.c` is a variable.
+#: Of files that are named without a folder; `wall.c` is a variable.
 ENDINGS = "rs|py|toml|md|json|xml|svg|png|jinja|txt|csv|h|ssv|ssd|lock|in"
 PATH = re.compile(rf"[\w.*{{}},+-]+(/[\w.*{{}},+-]*)+|[\w*{{}},+-]+\.({ENDINGS})")
 LABEL = re.compile(r"\b(?:eq|fig|thm|def|sec|lem|rem):\w+")
