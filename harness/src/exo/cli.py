@@ -186,7 +186,7 @@ def measure_sensitivity(
             task = progress.add_task("sensitivity", total=len(list(sensitivity.jobs(data))))
             effects = sensitivity.measure(runner, on_job=lambda job: progress.update(task, description=job, advance=1))
     path = out or study.with_suffix(".json")
-    path.write_text(json.dumps(effects, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
+    path.write_text(sensitivity.text(effects), encoding="utf-8")
     console.print(f"written: {path}", markup=False)
 
 

@@ -6,6 +6,7 @@ parameter is changed by +25 % and −25 % of the value that the scenario's case 
 
 import json
 import math
+import re
 import tomllib
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
@@ -200,3 +201,9 @@ def measure(runner: Runner, *, on_job: Callable[[str], None] = lambda _job: None
 def rounded(value: float) -> float | None:
     """A number as it is kept."""
     return float(f"{value:.{DIGITS}g}") if math.isfinite(value) else None
+
+
+def text(effects: dict[str, Any]) -> str:
+    """The effects as JSON, a line a parameter."""
+    lines = json.dumps(effects, indent=1)
+    return re.sub(r"\[[^\]]*\]", lambda values: " ".join(values[0].split()), lines) + "\n"
