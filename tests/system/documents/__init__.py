@@ -2,7 +2,7 @@
 
 | module | what |
 |---|---|
-| `names.py` | files, scenarios, tests, words and the paper's labels that a document names; the map from the paper to the code |
+| `names.py` | files, scenarios, tests, words and labels that a document names; the map from the paper to the code |
 | `citations.py` | sections and subjects of the specification that verdicts cite |
 | `assumptions.py` | the assumptions table, made from `docs/assumptions.toml` and `docs/assumptions.json` |
 """
