@@ -1,4 +1,4 @@
-//! The energy that the sampled laws create, for any motion of the robot and any human force.
+//! The energy that the sampled laws create, for any motion of the robot and any human force: what is left of eq:passivity_PI.
 #![allow(non_snake_case, reason = "the paper's symbols")]
 
 mod robot;

@@ -1,4 +1,4 @@
-//! The servo form: the nominal drives a drive, and feels what was measured one sample late.
+//! The servo form (footnote of sec:standard_adm): the nominal drives a drive, and feels what was measured one sample late.
 #![allow(non_snake_case, reason = "the paper's symbols")]
 
 mod robot;

@@ -1,6 +1,6 @@
 //! Against something that does not give way: dq = 0, whatever the law asks for.
 //!
-//! The nominal then is a mass on the coupling's spring and damper, alpha being the damper the paper hides:
+//! The nominal (eq:obs_dyn) then is a mass on the coupling's spring and damper, alpha being the damper the paper hides:
 //!
 //! ```text
 //! M_n ddq_n + (D_n + alpha) dq_n + alpha K_P (q_n − q) = f_h

@@ -1,4 +1,4 @@
-//! The law in joint space: against the law of one axis, its own energy formula, and the continuous equations.
+//! The law in joint space, eq:obs_dyn and eq:dob_input: against the law of one axis, its own energy formula, and the continuous equations.
 #![allow(non_snake_case, reason = "the paper's symbols")]
 
 use admittance::ledger::Stored;

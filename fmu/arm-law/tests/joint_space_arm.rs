@@ -1,4 +1,4 @@
-//! The law in joint space at a tick: its budget, its limits, what it shows at the handle.
+//! The law in joint space (eq:obs_dyn, eq:dob_input) at a tick: its budget, its limits, what it shows at the handle.
 #![allow(non_snake_case, reason = "the paper's symbols")]
 
 use admittance::bounds::{Bounds, Interval};

@@ -1,4 +1,4 @@
-//! The controller's kinematics against facts, finite differences and another decomposition.
+//! The controller's kinematics, dp = J(q) dq of sec:task_space_control, against facts, finite differences and another decomposition.
 #![allow(non_snake_case, reason = "the paper's symbols")]
 
 use arm_law::kinematics::{Kinematics, Pose};

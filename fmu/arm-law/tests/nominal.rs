@@ -1,4 +1,5 @@
-//! The nominal arm against Jacobians of its links, finite differences, and the motion of a free body.
+//! The nominal arm, M_n(q) and C_n(q, dq) of eq:obs_dyn, against Jacobians of its links, finite
+//! differences, and the motion of a free body.
 #![allow(non_snake_case, reason = "the paper's symbols")]
 
 use arm_law::ParameterError;

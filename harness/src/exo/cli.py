@@ -17,7 +17,7 @@ from rich.table import Table
 
 from exo import benchmark as bench
 from exo import compare as comparison
-from exo import experiment, report, results, scenario, tool, validate
+from exo import experiment, report, results, scenario, sensitivity, tool, validate
 from exo.errors import ExoError, FmuError, ScenarioError
 from exo.experiment import Experiment
 from exo.fmu import Archive, find_fmu_dir
@@ -170,6 +170,26 @@ def benchmark(fmu_dir: FmuDir = None) -> None:
     raise typer.Exit(0 if speed.factor >= bench.WANTED_FACTOR else 1)
 
 
+@app.command("sensitivity")
+def measure_sensitivity(
+    study: Annotated[Path, typer.Argument(help="What is changed, and which figures are looked at.")] = Path(
+        "docs/assumptions.toml"
+    ),
+    out: Annotated[Path | None, typer.Option("--out", help="JSON file; else beside the study.")] = None,
+    fmu_dir: FmuDir = None,
+) -> None:
+    """Changes every parameter of the plants, one at a time, and writes what the key figures become."""
+    with sentences():
+        data = sensitivity.load(study)
+        runner = sensitivity.Runner(study=data, fmu_dir=find_fmu_dir(fmu_dir))
+        with progress_bar() as progress:
+            task = progress.add_task("sensitivity", total=len(list(sensitivity.jobs(data))))
+            effects = sensitivity.measure(runner, on_job=lambda job: progress.update(task, description=job, advance=1))
+    path = out or study.with_suffix(".json")
+    path.write_text(sensitivity.text(effects), encoding="utf-8")
+    console.print(f"written: {path}", markup=False)
+
+
 @app.command("identify-tool")
 def identify_tool(
     readings: Annotated[Path, typer.Argument(help="CSV: q[1..3], ft.force[1..3], ft.torque[1..3], a row a reading.")],
@@ -277,12 +297,17 @@ def parse_settings(settings: list[str]) -> dict[str, str]:
     return parsed
 
 
+def progress_bar() -> Progress:
+    """How far a long command is; nothing where no one watches."""
+    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
+    return Progress(*columns, console=console, transient=True, disable=not console.is_terminal)
+
+
 def _run_all(*, names: list[str], overrides: dict[str, str], out: Path, fmu_dir: Path | None) -> list[Experiment]:
     folder = find_fmu_dir(fmu_dir)
     scenarios = [scenario.load(name) for name in names]
     experiments = []
-    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
-    with Progress(*columns, console=console, transient=True, disable=not console.is_terminal) as progress:
+    with progress_bar() as progress:
         for data in scenarios:
             task = progress.add_task(data.id, total=len(data.cases) + 1)
             done = experiment.run(

@@ -1,5 +1,5 @@
-//! M, C, g, positions and Jacobians against a derivation that knows nothing of the arm's plane: three rigid bodies in
-//! space, M = Σ m Jᵥᵀ Jᵥ + J_ωᵀ R I Rᵀ J_ω, Christoffel symbols and gravity by central differences.
+//! M, C, g (eq:real_dyn), positions and Jacobians against a derivation that knows nothing of the arm's plane:
+//! three rigid bodies in space, M = Σ m Jᵥᵀ Jᵥ + J_ωᵀ R I Rᵀ J_ω, Christoffel symbols and gravity by central differences.
 
 #![allow(
     non_snake_case,

@@ -1,4 +1,4 @@
-//! The three axes of the base frame are three scalars, as long as no joint limits them.
+//! The three axes of the base frame (eq:obs_dyn_cart) are three scalars, as long as no joint limits them.
 
 use crate::{T, initialized, tick};
 use admittance::{Admittance, Gains, Law, Settings};

@@ -1,4 +1,4 @@
-//! M(q), C(q, dq) and the torque of gravity, in closed form.
+//! M(q), C(q, dq) and the torque of gravity, in closed form: the left side of eq:real_dyn.
 //!
 //! Every centre of mass lies in the arm's plane (y = 0) and the only product of inertia is xz, so the yaw axis does not
 //! couple with the pitch plane: M is block diagonal. Rotors count by their inertia about their own axis times the gear

@@ -1,0 +1,90 @@
+"""`exo sensitivity`: one parameter changed, by a quarter, to stated values, with the table; and what it refuses."""
+
+import json
+from pathlib import Path
+
+import pytest
+from typer.testing import CliRunner
+
+from exo.cli import app
+from exo.sensitivity import load, pad_height
+
+STUDY = """
+[[figure]]
+id = "release"
+title = "release delay"
+plant = "Testbed"
+scenario = "wall"
+case = "passive_bounded_5_0.5"
+metric = "release_delay"
+until = 24.0
+
+[[parameter]]
+plant = "Testbed"
+group = "wall"
+name = "wall.q"
+source = "chosen"
+why = "anywhere"
+values = [0.35]
+
+[[parameter]]
+plant = "Testbed"
+group = "friction"
+name = "F_c"
+source = "chosen"
+why = "any"
+
+[[parameter]]
+plant = "Testbed"
+group = "wall"
+name = "wall.k"
+source = "chosen"
+why = "any"
+off = ["release"]
+"""
+
+
+def test_each_parameter_is_changed_alone(tmp_path: Path, fmu_dir: Path) -> None:
+    study = tmp_path / "study.toml"
+    study.write_text(STUDY, encoding="utf-8")
+    done = CliRunner().invoke(app, ["sensitivity", str(study), "--fmu-dir", str(fmu_dir)])
+    assert done.exit_code == 0, done.output
+    found = json.loads((tmp_path / "study.json").read_text(encoding="utf-8"))["release"]
+    assert found["value"] == 0.332
+    assert found["parameters"] == {"wall.q": 0.3, "F_c": 0.64, "wall.k": 1e5}
+    assert list(found["changed"]) == ["wall.q", "F_c"], "wall.k is off"
+    assert len(found["changed"]["wall.q"]) == 1
+    # More friction holds the mass longer.
+    more, less = found["changed"]["F_c"]
+    assert more > 0.332 > less
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        ("passive_bounded_5_0.5", "passive_bounded_7", "wall has no case passive_bounded_7 with release_delay"),
+        ('metric = "release_delay"', 'metric = "relief"', "wall has no case passive_bounded_5_0.5 with relief"),
+        ('source = "chosen"', 'source = "guessed"', "'paper', 'chosen' or 'fitted'"),
+        ("values = [0.35]", "values = [-2e9]", "wall.q"),
+    ],
+)
+def test_a_study_that_cannot_be_run_is_one_sentence(
+    old: str, new: str, message: str, tmp_path: Path, fmu_dir: Path
+) -> None:
+    study = tmp_path / "study.toml"
+    study.write_text(STUDY.replace(old, new, 1), encoding="utf-8")
+    done = CliRunner().invoke(app, ["sensitivity", str(study), "--fmu-dir", str(fmu_dir)])
+    assert done.exit_code == 2
+    assert message in done.output
+    assert not (tmp_path / "study.json").exists()
+
+
+def test_the_pad_is_where_the_specification_says() -> None:
+    lengths = {"L1": 0.32, "pad.x": 0.36, "pad.z": -0.12, "q_start[2]": -1.48096, "q_start[3]": 1.70138}
+    height = pad_height({f"plant.{name}": value for name, value in lengths.items()})
+    assert height == pytest.approx(-0.35710, abs=5e-6)  # five decimals are given
+
+
+def test_the_study_of_the_documents_can_be_read() -> None:
+    study = load(Path(__file__).parents[2] / "docs/assumptions.toml")
+    assert {figure.plant for figure in study.figure} == {"Testbed", "ExoskeletonArm"}
