@@ -65,7 +65,13 @@ def results(experiment: Experiment) -> dict[str, Any]:
     return {result.id: result for result in experiment.results}
 
 
-def recording(*, time: Any, parameters: Mapping[str, float] | None = None, **columns: Any) -> Recording:
+def recording(
+    *,
+    time: Any,
+    parameters: Mapping[str, float] | None = None,
+    choices: Mapping[str, str] | None = None,
+    **columns: Any,
+) -> Recording:
     """A synthetic recording; `__` in a column's name stands for the dot."""
     named = {name.replace("__", "."): np.asarray(column) for name, column in columns.items()}
     return Recording(
@@ -73,6 +79,7 @@ def recording(*, time: Any, parameters: Mapping[str, float] | None = None, **col
         columns=named,
         units={},
         parameters=dict(parameters or {}),
+        choices=dict(choices or {}),
         profiles={},
         wall_time=1.0,
         cpu_time=1.0,

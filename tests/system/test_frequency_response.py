@@ -7,7 +7,8 @@ import pytest
 
 from exo import theory
 from exo.experiment import Experiment
-from exo.metrics import loop_of, measured_response
+from exo.metrics.loops import loop_of
+from exo.metrics.response import measured_response
 
 from conftest import verdict_ids
 

@@ -4,8 +4,9 @@ from typing import Any
 
 import pytest
 
+from exo import metrics
 from exo.experiment import Experiment
-from exo.metrics import wall_curve_error
+from exo.metrics.wall import wall_curve_error
 
 from conftest import verdict_ids
 
@@ -28,6 +29,7 @@ def test_the_standard_law_sticks_ten_times_as_long_as_any_feedback_of_y(results:
 def test_the_curve_at_the_wall_needs_the_reaction_of_alpha(experiment: Experiment) -> None:
     # Without the reaction on the nominal e grows without bound: the closed form must not fit law standard.
     arguments = next(m.arguments for m in experiment.scenario.metrics if m.id == "analytic_curve")
+    arguments = metrics.complete("wall_curve_error", arguments)
     assert wall_curve_error(experiment.recordings["standard_10_0.5"], **arguments) > 1.0
 
 
