@@ -1,4 +1,4 @@
-"""What the system tests share: the built archives, a scenario's run per file, synthetic recordings."""
+"""What the system tests share: the built archives, one run of each scenario, synthetic recordings."""
 
 from collections.abc import Iterator, Mapping
 from contextlib import ExitStack
@@ -18,12 +18,35 @@ from exo.recording import Recording
 NAMES = ("TestbedController", "Testbed", "ArmController", "ExoskeletonArm", "ExoskeletonArms", "HumanOperator")
 
 
-def verdict_ids(name: str) -> list[str]:
-    """Ids of everything that a scenario judges or reports, known before it runs."""
-    data = scenarios.load(name)
-    cases = tuple(case.id for case in data.cases)
-    metrics = [f"{metric.id}/{case}" for metric in data.metrics for case in metric.cases or cases]
-    return metrics + [ratio.id for ratio in data.ratios]
+#: The scenario that ran last. Its tests stand next to each other, so that it runs once; all together would be some GB.
+RUNS: dict[str, Experiment] = {}
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Tests of one file, and of one scenario, stay together: on one worker, in a row."""
+    groups: dict[str, list[pytest.Item]] = {}
+    for item in items:
+        marker = item.get_closest_marker("xdist_group")
+        group = str(marker.args[0]) if marker else getattr(item.module, "SCENARIO", item.path.name)  # type: ignore[attr-defined]
+        if not marker:
+            item.add_marker(pytest.mark.xdist_group(group))
+        groups.setdefault(group, []).append(item)
+    items[:] = [item for group in groups.values() for item in group]
+
+
+def pytest_runtest_teardown(item: pytest.Item, nextitem: pytest.Item | None) -> None:
+    """Gives the recordings back where another file or scenario follows."""
+    here, there = (one and one.get_closest_marker("xdist_group") for one in (item, nextitem))
+    if not there or not here or here.args != there.args:
+        RUNS.clear()
+
+
+def run_of(name: str, fmu_dir: Path) -> Experiment:
+    """The run of a built-in scenario, done once for all tests of it."""
+    if name not in RUNS:
+        RUNS.clear()
+        RUNS[name] = experiments.run(scenario=scenarios.load(name), fmu_dir=fmu_dir)
+    return RUNS[name]
 
 
 @pytest.fixture(scope="session")
@@ -56,7 +79,7 @@ def archives(fmu_dir: Path) -> Iterator[Mapping[str, Archive]]:
 @pytest.fixture(scope="module")
 def experiment(request: pytest.FixtureRequest, fmu_dir: Path) -> Experiment:
     """The run of the module's SCENARIO."""
-    return experiments.run(scenario=scenarios.load(request.module.SCENARIO), fmu_dir=fmu_dir)
+    return run_of(request.module.SCENARIO, fmu_dir)
 
 
 @pytest.fixture(scope="module")

@@ -1,22 +1,12 @@
-"""Scenario wall on the built FMUs: every verdict is a test."""
+"""Scenario wall on the built FMUs."""
 
 from typing import Any
-
-import pytest
 
 from exo import metrics
 from exo.experiment import Experiment
 from exo.metrics.wall import wall_curve_error
 
-from conftest import verdict_ids
-
 SCENARIO = "wall"
-
-
-@pytest.mark.parametrize("metric", verdict_ids(SCENARIO))
-def test_verdict_does_not_fail(metric: str, results: dict[str, Any]) -> None:
-    result = results[metric]
-    assert result.verdict != "fail", f"{result.value:.6g} {result.unit}, expected {result.expectation()}"
 
 
 def test_the_standard_law_sticks_ten_times_as_long_as_any_feedback_of_y(results: dict[str, Any]) -> None:

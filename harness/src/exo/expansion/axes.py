@@ -18,6 +18,8 @@ from typing import Any
 from exo.errors import ScenarioError, close_matches
 
 PLACEHOLDER = re.compile(r"\{(\w+)(?:\.(\w+))?\}")
+#: Keys that hold a text, whatever an axis' values are.
+TEXTS = ("id", "title", "label", "case", "y_label")
 #: Fields of an axis' value that are part of every case over it; so are names with a dot, which are parameters.
 OF_A_CASE = ("parameters", "inputs", "profiles", "coupling", "duration")
 
@@ -103,10 +105,14 @@ class Axes:
                 return [self.fill(one, bound, where=where) for one in value]
             case dict():
                 return {
-                    written(self.fill(key, bound, where=where)): self.fill(one, bound, where=where)
+                    written(self.fill(key, bound, where=where)): self._filled(key, one, bound, where)
                     for key, one in value.items()
                 }
         return value
+
+    def _filled(self, key: str, value: Any, bound: Bound, where: str) -> Any:
+        filled = self.fill(value, bound, where=where)
+        return written(filled) if key in TEXTS and isinstance(value, str) else filled
 
     def _content(self, found: re.Match[str], bound: Bound, where: str) -> Any:
         axis, field = found[1], found[2]

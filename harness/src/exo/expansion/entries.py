@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from exo.errors import ScenarioError, close_matches
-from exo.expansion.axes import Axes, Bound
+from exo.expansion.axes import Axes, Bound, written
 
 Entry = dict[str, Any]
 #: Tables of a case that are joined with what its axes say.
@@ -86,7 +86,7 @@ def metrics(data: Any, *, axes: Axes, known: Entry, where: str) -> list[Entry]:
 
 
 def _names(names: list[Any], axes: Axes, where: str) -> list[Any]:
-    return [axes.fill(name, bound, where=where) for name in names for bound in axes.each(name, where=where)]
+    return [written(axes.fill(name, bound, where=where)) for name in names for bound in axes.each(name, where=where)]
 
 
 def _rows(rows: Entry, axes: Axes, where: str) -> Iterator[tuple[str, Any]]:
@@ -99,7 +99,7 @@ def _rows(rows: Entry, axes: Axes, where: str) -> Iterator[tuple[str, Any]]:
                 )
         for i, bound in enumerate(bounds):
             one = {n: c[i] if isinstance(c, list) else c for n, c in row.items()} if isinstance(row, dict) else row
-            yield axes.fill(key, bound, where=where), axes.fill(one, bound, where=where)
+            yield written(axes.fill(key, bound, where=where)), axes.fill(one, bound, where=where)
 
 
 def ratios(data: Any, *, axes: Axes, known: Entry, where: str) -> list[Entry]:  # noqa: ARG001, one shape for all three
