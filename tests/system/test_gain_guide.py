@@ -48,7 +48,7 @@ def test_the_gain_at_which_the_fmus_begin_to_ring_is_the_predicted_one(
     found = simulated_boundary(
         lambda K: grows(archives, f"gain_above_delay_{delay}", "controller.K", K), low=750.0, high=high
     )
-    # The 10 %. The bisection's 1 %, and what may ring for long: less than 2 % is seen.
+    # docs/tuning.md: within 10 %. The bisection's 1 %, and what may ring for long: less than 2 % is seen.
     assert found == pytest.approx(predicted.high, rel=0.02)
 
 
