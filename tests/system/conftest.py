@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from xdist.scheduler import LoadScopeScheduling
 
 from exo import experiment as experiments
 from exo import scenario as scenarios
@@ -22,22 +23,38 @@ NAMES = ("TestbedController", "Testbed", "ArmController", "ExoskeletonArm", "Exo
 RUNS: dict[str, Experiment] = {}
 
 
+def group(nodeid: str) -> str:
+    """Tests that stay together, on one worker and in a row: those of a file, and with them the scenario's verdicts."""
+    file, _, test = nodeid.partition("::")
+    if Path(file).stem == "test_verdicts":
+        return test.partition("[")[2].partition("-")[0]
+    return Path(file).stem.removeprefix("test_")
+
+
+class ByScenario(LoadScopeScheduling):  # type: ignore[misc]
+    """xdist's loadfile, by `group`. Its own loadgroup does not see the groups under pytest 9.2."""
+
+    def _split_scope(self, nodeid: str) -> str:
+        return group(nodeid)
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> LoadScopeScheduling:
+    """How the workers share the tests."""
+    return ByScenario(config, log)
+
+
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Tests of one file, and of one scenario, stay together: on one worker, in a row."""
+    """Groups in a row, also without workers."""
     groups: dict[str, list[pytest.Item]] = {}
     for item in items:
-        marker = item.get_closest_marker("xdist_group")
-        group = str(marker.args[0]) if marker else getattr(item.module, "SCENARIO", item.path.name)  # type: ignore[attr-defined]
-        if not marker:
-            item.add_marker(pytest.mark.xdist_group(group))
-        groups.setdefault(group, []).append(item)
-    items[:] = [item for group in groups.values() for item in group]
+        groups.setdefault(group(item.nodeid), []).append(item)
+    items[:] = [item for together in groups.values() for item in together]
 
 
 def pytest_runtest_teardown(item: pytest.Item, nextitem: pytest.Item | None) -> None:
-    """Gives the recordings back where another file or scenario follows."""
-    here, there = (one and one.get_closest_marker("xdist_group") for one in (item, nextitem))
-    if not there or not here or here.args != there.args:
+    """Gives the recordings back where another group follows."""
+    if nextitem is None or group(nextitem.nodeid) != group(item.nodeid):
         RUNS.clear()
 
 

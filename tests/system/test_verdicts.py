@@ -18,10 +18,10 @@ def verdicts() -> Iterator[Any]:
         cases = tuple(case.id for case in data.cases)
         ids = [f"{metric.id}/{case}" for metric in data.metrics for case in metric.cases or cases]
         for one in ids + [ratio.id for ratio in data.ratios]:
-            yield pytest.param(name, one, marks=pytest.mark.xdist_group(name), id=f"{name}-{one}")
+            yield pytest.param(name, one, id=f"{name}-{one}")  # `conftest.group` reads the name
 
 
-@pytest.mark.parametrize(("name", "metric"), verdicts())
+@pytest.mark.parametrize(("name", "metric"), list(verdicts()))
 def test_verdict_does_not_fail(name: str, metric: str, fmu_dir: Path) -> None:
     results = {result.id: result for result in run_of(name, fmu_dir).results}
     result = results[metric]
