@@ -196,6 +196,11 @@ label = "{law}"
         ("{form.text}", "{form.txt}", r"cases\..*: \{form\.txt\}: servo of axis form has no txt .*text"),
         ('torque = { text = "a force" }', "torque = {}", r"\{form\.text\}: torque of axis form has no text"),
         ("coupling =", "couplng =", r"mini\.toml: axes\.form\.servo\.couplng: nothing uses it; expected .*coupling"),
+        (
+            'servo = { text = "a drive", "controller.form" = "position_servo", coupling = "exchange_at_once" }',
+            'servo = { text = "a drive", duratin = 2.0 }',
+            r"mini\.toml: axes\.form\.servo\.duratin: nothing uses it; expected .*duration",
+        ),
         ("K = [7.5, 15.0]", "K = 7.5", r"mini\.toml: axes\.K: got 7\.5; expected a list of values or a table"),
         ('label = "{form.text}', 'over = { K = [8.0] }\nlabel = "{form.text}', r"over\.K: no value 8 .*7\.5"),
         ('label = "{form.text}', 'over = { k = [7.5] }\nlabel = "{form.text}', r"over: unknown axis k .*K"),
@@ -217,6 +222,18 @@ label = "{law}"
             r"parameters\.M: got 1\.0; expected a name as component",
         ),
         ("duration = 1.0", "duration = 1.0\nknown = { metric = {} }", r"known\.metric: unknown key .*metrics"),
+        (
+            "duration = 1.0",
+            "duration = 1.0\nknown = { metrics = { m = 3 } }",
+            r"known\.metrics\.m: got 3; expected the keys",
+        ),
+        ("duration = 1.0", "duration = 1.0\ninputs = 3", r"mini\.toml: inputs: got 3; expected"),
+        ("duration = 1.0", "duration = 1.0\nratios = 3", r"mini\.toml: ratios: got 3; expected a table for each id"),
+        (
+            'label = "{form.text}',
+            'parameters = 3\nlabel = "{form.text}',
+            r"cases\.servo_K7\.5\.parameters: got 3; expected",
+        ),
         ('y_label = "q"', 'y_lable = "q"', r"figures\.f\.panels\.0\.y_lable: unknown key"),
     ],
 )

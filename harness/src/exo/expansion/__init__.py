@@ -48,6 +48,9 @@ def _known(known: Any, *, where: str) -> dict[str, Any]:
             raise ScenarioError(f"{where}.{kind}: unknown key{close_matches(kind, kinds)}")
         if not isinstance(table, dict):
             raise ScenarioError(f"{where}.{kind}: got {table!r}; expected a table by name")
+        for name, one in table.items():
+            if kind == "metrics" and not isinstance(one, dict):
+                raise ScenarioError(f"{where}.{kind}.{name}: got {one!r}; expected the keys of a metric")
     return kinds | known
 
 

@@ -50,6 +50,7 @@ class Axes:
             raise ScenarioError(f"{where}: got {data!r}; expected a table of axes")
         self.points = {name: self._points(name, values) for name, values in data.items()}
         self._used: set[tuple[str, str]] = set()
+        self._of_cases: set[str] = set()
 
     def _points(self, name: str, values: Any) -> dict[str, Point]:
         if isinstance(values, list) and values and not any(isinstance(value, dict | list) for value in values):
@@ -126,16 +127,16 @@ class Axes:
 
     def fragments(self, bound: Bound) -> Iterator[dict[str, Any]]:
         """What the bound values say of a case."""
+        self._of_cases.update(bound)
         for axis, point in bound.items():
             of_case = {key: one for key, one in point.fields.items() if key in OF_A_CASE or "." in key}
             self._used.update((axis, key) for key in of_case)
             yield of_case
 
     def check_all_is_used(self) -> None:
-        """A field that nothing has used is misspelt, unless its whole axis is unused: a base may offer more than is
-        needed."""
-        used_axes = {axis for axis, _ in self._used}
-        for axis in used_axes:
+        """A field that nothing has used is misspelt. A base may offer axes that nothing uses, and names beside values
+        that are only written out."""
+        for axis in sorted(self._of_cases | {axis for axis, _ in self._used}):
             for value, point in self.points[axis].items():
                 for field in point.fields:
                     if (axis, field) not in self._used:

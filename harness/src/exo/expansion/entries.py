@@ -38,18 +38,20 @@ def cases(data: Any, *, axes: Axes, known: Entry, where: str) -> list[Entry]:
     for row, bound, place in over_axes(data, axes=axes, where=where):
         case: Entry = {}
         for part in (*(axes.fill(part, bound, where=place) for part in axes.fragments(bound)), row):
-            parameters = {key: value for key, value in part.items() if "." in key}
             for key, value in part.items():
-                if key in TABLES and isinstance(value, dict):
-                    case[key] = case.get(key, {}) | value
-                elif key not in parameters:
-                    case[key] = value
-            if parameters:
-                case["parameters"] = case.get("parameters", {}) | parameters
+                if "." not in key:
+                    case[key] = _joined(case.get(key, {}), value) if key in TABLES else value
+            dotted = {key: value for key, value in part.items() if "." in key}
+            if dotted and isinstance(case.get("parameters", {}), dict):
+                case["parameters"] = _joined(case.get("parameters", {}), dotted)
         if "profiles" in case:
             case["profiles"] = profiles(case["profiles"], known["profiles"], where=f"{place}.profiles")
         found.append(case)
     return found
+
+
+def _joined(base: Any, own: Any) -> Any:
+    return base | own if isinstance(base, dict) and isinstance(own, dict) else own
 
 
 def profiles(data: Any, known: Entry, *, where: str) -> Any:
@@ -69,13 +71,13 @@ def metrics(data: Any, *, axes: Axes, known: Entry, where: str) -> list[Entry]:
     models = dict(known["metrics"])
     for row, _, place in over_axes(data, axes=axes, where=where):
         like = row.pop("like", None)
-        if like is not None and like not in models:
+        if like is not None and str(like) not in models:
             raise ScenarioError(f"{place}.like: no metric {like}{close_matches(str(like), models)}")
-        model = models.get(like or row.get("id"), {})
+        model = models.get(str(like or row.get("id")), {})
         metric = model | row
         if isinstance(model.get("arguments"), dict) and isinstance(row.get("arguments"), dict):
             metric["arguments"] = model["arguments"] | row["arguments"]
-        models[metric.get("id")] = metric
+        models[str(metric.get("id"))] = metric
         if isinstance(metric.get("cases"), list):
             metric = metric | {"cases": _names(metric["cases"], axes, f"{place}.cases")}
         for key in ("expected", "paper"):

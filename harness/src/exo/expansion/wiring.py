@@ -24,9 +24,11 @@ def wired(data: dict[str, Any], *, origin: str) -> dict[str, Any]:
         return plain
     if kind != "by_name":
         raise ScenarioError(f"{origin}: wiring: got {kind!r}; expected 'explicit' or 'by_name'")
-    components, profiles = plain.get("components", {}), plain.get("profiles", {})
+    components, profiles, own = (plain.get(key, {}) for key in ("components", "profiles", "inputs"))
+    if not all(isinstance(table, dict) for table in (components, profiles, own)):
+        return plain  # what is no table is named where the whole is checked
     archives = {name: str(part.get("archive")) for name, part in components.items() if isinstance(part, dict)}
-    inputs = dict(plain.get("inputs", {}))
+    inputs = dict(own)
     taken = {_array(key) for key in inputs}  # an array is wired as a whole
     for name, archive in archives.items():
         for giver, variables in pairs().get(archive, {}).items():
