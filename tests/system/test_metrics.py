@@ -7,7 +7,7 @@ import pytest
 
 from exo import metrics, theory
 from exo.errors import ExoError, ScenarioError
-from exo.metrics import basic, coupling, events, growth, response, wall
+from exo.metrics import basic, coupling, events, growth, loops, response, wall
 from exo.scenario import Check, Segment
 from exo.verdict import judge
 
@@ -241,6 +241,33 @@ def test_a_response_of_more_than_one_sine_is_refused() -> None:
     object.__setattr__(run, "profiles", {"two": (sine, sine)})
     with pytest.raises(ValueError, match="too many values"):
         response.measured_response(run, force="f", velocity="v", profile="two", after=0.0)
+
+
+def test_the_desired_mass_is_the_robot_s_own_under_natural_only() -> None:
+    parameters = {"c.comparator.M": 6.0, "c.M_n": 5.0}
+    for law, mass in (("natural", 6.0), ("sliding_mode", 5.0), ("passive", 5.0)):
+        run = recording(time=TIME, parameters=parameters, choices={"c.law": law})
+        assert loops.desired_mass(run, controller="c") == mass
+
+
+def test_a_metric_takes_the_components_that_it_is_told() -> None:
+    names = {"M_n": 5.0, "D_n": 0.5, "K": 30.0, "K_P": 10.0, "alpha": 1.0, "T": 0.01}
+    parameters = {f"left.{name}": value for name, value in names.items()} | {"mass.M": 6.0, "mass.substep": 4e-4}
+    parameters["hand.k_h"] = 50.0
+    expected = theory.hand_growth_rate(loop=theory.Loop(M=6.0, substep=4e-4, **names), k_h=50.0)
+    swing = 1e-4 * np.exp(expected * TIME) * np.sin(3.0 * TIME)
+    run = recording(time=TIME, parameters=parameters, choices={"left.law": "passive"}, x=swing)
+    arguments = {"column": "x", "after": 1.0, "before": 6.0, "controller": "left", "plant": "mass", "operator": "hand"}
+    assert growth.testbed_hand_growth_error(run, **arguments) < 1e-6
+    called = metrics.evaluate(recording=run, function="testbed_hand_growth_error", arguments=arguments, owner="here")
+    assert called == growth.testbed_hand_growth_error(run, **arguments)
+    with pytest.raises(ExoError, match="plant"):
+        metrics.evaluate(
+            recording=run,
+            function="testbed_hand_growth_error",
+            arguments={key: value for key, value in arguments.items() if key != "plant"},
+            owner="here",
+        )
 
 
 def test_unknown_columns_functions_and_arguments_name_what_is_known() -> None:

@@ -129,6 +129,31 @@ def test_a_scenario_replaces_what_its_base_says(tmp_path: Path) -> None:
     assert [metric.function for metric in data.metrics] == ["lowest_change"]
 
 
+def test_a_scenario_can_be_a_base_and_keeps_its_id_to_itself() -> None:
+    wall = scenario.load("wall")
+    assert parsed('base = "wall"\n') == wall.model_copy(update={"id": "mini"})
+
+
+def test_what_stands_in_a_metric_or_a_curve_replaces_what_it_starts_from() -> None:
+    text = MINI.replace("[figures.f]", '[metrics.n]\nlike = "release_delay"\narguments = { margin = 0.5 }\n[figures.f]')
+    text = text.replace('column = "plant.dq" }', 'curves = [{ column = "plant.dq", color = "red" }] }')
+    data = parsed(text)
+    assert data.metrics[2].arguments == data.metrics[1].arguments | {"margin": 0.5}
+    (curve,) = data.figures[0].panels[2].curves
+    assert (curve.case, curve.column, curve.color) == ("servo_K15", "plant.dq", "red")
+
+
+def test_an_array_is_wired_as_a_whole() -> None:
+    text = 'base = "arm"\ntitle = "t"\nabout = "a"\nsource = "s"\nduration = 1.0\n[cases.only]\n'
+    wired = parsed(text).inputs
+    assert wired["controller.f_h[3]"] == "operator.f_h[3]"
+    own = parsed(text + '[inputs]\n"controller.f_h[2]" = "plant.f_h_measured[2]"\n').inputs
+    assert {key: source for key, source in own.items() if key.startswith("controller.f_h")} == {
+        "controller.f_h[2]": "plant.f_h_measured[2]"
+    }
+    assert own["controller.q[3]"] == "plant.q[3]"
+
+
 def test_an_element_set_above_a_base_s_range_wins(tmp_path: Path) -> None:
     (tmp_path / "base.toml").write_text(MINI + '[parameters]\n"plant.x[2]" = 2.0\n"plant.x[1..3]" = 1.0\n')
     data = parsed('base = "base.toml"\n[parameters]\n"plant.x[2]" = 5.0\n', tmp_path)
@@ -180,6 +205,14 @@ id = "only"
 label = "{law}"
 """
     assert parsed(text).cases[0].label == "{law}"
+
+
+def test_a_misspelt_field_is_found_where_the_axis_has_no_other() -> None:
+    text = MINI.replace("{form.text}", "{form}").replace('text = "a drive", "controller.form"', '"controller.form"')
+    text = text.replace('{ text = "a force" }', "{ duratin = 2.0 }").replace(', coupling = "exchange_at_once"', "")
+    text = text.replace('"controller.form" = "position_servo"', "")
+    with pytest.raises(ScenarioError, match=r"axes\.form\.torque\.duratin: nothing uses it"):
+        parsed(text)
 
 
 @pytest.mark.parametrize(
