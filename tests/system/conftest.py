@@ -1,4 +1,4 @@
-"""What the system tests share: the built archives, a scenario's run per file, synthetic recordings."""
+"""What the system tests share: the built archives, one run of each scenario, synthetic recordings."""
 
 from collections.abc import Iterator, Mapping
 from contextlib import ExitStack
@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from xdist.scheduler import LoadScopeScheduling
 
 from exo import experiment as experiments
 from exo import scenario as scenarios
@@ -18,12 +19,51 @@ from exo.recording import Recording
 NAMES = ("TestbedController", "Testbed", "ArmController", "ExoskeletonArm", "ExoskeletonArms", "HumanOperator")
 
 
-def verdict_ids(name: str) -> list[str]:
-    """Ids of everything that a scenario judges or reports, known before it runs."""
-    data = scenarios.load(name)
-    cases = tuple(case.id for case in data.cases)
-    metrics = [f"{metric.id}/{case}" for metric in data.metrics for case in metric.cases or cases]
-    return metrics + [ratio.id for ratio in data.ratios]
+#: The scenario that ran last. Its tests stand next to each other, so that it runs once; all together would be some GB.
+RUNS: dict[str, Experiment] = {}
+
+
+def group(nodeid: str) -> str:
+    """Tests that stay together, on one worker and in a row: those of a file, and with them the scenario's verdicts."""
+    file, _, test = nodeid.partition("::")
+    if Path(file).stem == "test_verdicts":
+        return test.partition("[")[2].partition("-")[0]
+    return Path(file).stem.removeprefix("test_")
+
+
+class ByScenario(LoadScopeScheduling):  # type: ignore[misc]
+    """xdist's loadfile, by `group`. Its own loadgroup does not see the groups under pytest 9.2."""
+
+    def _split_scope(self, nodeid: str) -> str:
+        return group(nodeid)
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> LoadScopeScheduling:
+    """How the workers share the tests."""
+    return ByScenario(config, log)
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Groups in a row, also without workers."""
+    groups: dict[str, list[pytest.Item]] = {}
+    for item in items:
+        groups.setdefault(group(item.nodeid), []).append(item)
+    items[:] = [item for together in groups.values() for item in together]
+
+
+def pytest_runtest_teardown(item: pytest.Item, nextitem: pytest.Item | None) -> None:
+    """Gives the recordings back where another group follows."""
+    if nextitem is None or group(nextitem.nodeid) != group(item.nodeid):
+        RUNS.clear()
+
+
+def run_of(name: str, fmu_dir: Path) -> Experiment:
+    """The run of a built-in scenario, done once for all tests of it."""
+    if name not in RUNS:
+        RUNS.clear()
+        RUNS[name] = experiments.run(scenario=scenarios.load(name), fmu_dir=fmu_dir)
+    return RUNS[name]
 
 
 @pytest.fixture(scope="session")
@@ -56,7 +96,7 @@ def archives(fmu_dir: Path) -> Iterator[Mapping[str, Archive]]:
 @pytest.fixture(scope="module")
 def experiment(request: pytest.FixtureRequest, fmu_dir: Path) -> Experiment:
     """The run of the module's SCENARIO."""
-    return experiments.run(scenario=scenarios.load(request.module.SCENARIO), fmu_dir=fmu_dir)
+    return run_of(request.module.SCENARIO, fmu_dir)
 
 
 @pytest.fixture(scope="module")
@@ -65,7 +105,13 @@ def results(experiment: Experiment) -> dict[str, Any]:
     return {result.id: result for result in experiment.results}
 
 
-def recording(*, time: Any, parameters: Mapping[str, float] | None = None, **columns: Any) -> Recording:
+def recording(
+    *,
+    time: Any,
+    parameters: Mapping[str, float] | None = None,
+    choices: Mapping[str, str] | None = None,
+    **columns: Any,
+) -> Recording:
     """A synthetic recording; `__` in a column's name stands for the dot."""
     named = {name.replace("__", "."): np.asarray(column) for name, column in columns.items()}
     return Recording(
@@ -73,6 +119,7 @@ def recording(*, time: Any, parameters: Mapping[str, float] | None = None, **col
         columns=named,
         units={},
         parameters=dict(parameters or {}),
+        choices=dict(choices or {}),
         profiles={},
         wall_time=1.0,
         cpu_time=1.0,

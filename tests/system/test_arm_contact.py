@@ -1,4 +1,4 @@
-"""Scenario arm_contact on the built FMUs: every verdict is a test."""
+"""Scenario arm_contact on the built FMUs."""
 
 from typing import Any
 
@@ -7,15 +7,7 @@ import pytest
 
 from exo.experiment import Experiment
 
-from conftest import verdict_ids
-
 SCENARIO = "arm_contact"
-
-
-@pytest.mark.parametrize("metric", verdict_ids(SCENARIO))
-def test_verdict_does_not_fail(metric: str, results: dict[str, Any]) -> None:
-    result = results[metric]
-    assert result.verdict != "fail", f"{result.value:.6g} {result.unit}, expected {result.expectation()}"
 
 
 def w(t: np.ndarray, a: float, b: float) -> np.ndarray:

@@ -1,20 +1,10 @@
-"""Scenario arm_drift on the built FMUs: every verdict is a test."""
+"""Scenario arm_drift on the built FMUs."""
 
 from typing import Any
 
-import pytest
-
 from exo.experiment import Experiment
 
-from conftest import verdict_ids
-
 SCENARIO = "arm_drift"
-
-
-@pytest.mark.parametrize("metric", verdict_ids(SCENARIO))
-def test_verdict_does_not_fail(metric: str, results: dict[str, Any]) -> None:
-    result = results[metric]
-    assert result.verdict != "fail", f"{result.value:.6g} {result.unit}, expected {result.expectation()}"
 
 
 def test_the_heavier_payload_sinks_faster(results: dict[str, Any]) -> None:

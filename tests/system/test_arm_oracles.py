@@ -23,10 +23,10 @@ H = 1e-3
 ENGINES = {"pinocchio": Pinocchio, "mujoco": MuJoCo}
 TERMS = ("M", "C_dq", "g", "p", "p_pad", "J")
 #: Relative, in the largest element of the term: some fifty roundings of 1e-16 and what they lose to cancellation in
-#: bent poses. Required by SPEC.md section 6; measured: 9e-15.
+#: bent poses. Required by docs/specification.md section 6; measured: 9e-15.
 ROUNDING = 1e-12
 #: Forward dynamics, relative. The difference quotient over H costs eps · 3 rad/s / H = 7e-13 rad/s² of accelerations of
-#: some rad/s². Required by SPEC.md section 6; measured: 6e-13.
+#: some rad/s². Required by docs/specification.md section 6; measured: 6e-13.
 QUOTIENT = 1e-9
 
 

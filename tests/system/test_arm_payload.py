@@ -1,4 +1,4 @@
-"""Scenario arm_payload on the built FMUs: every verdict is a test."""
+"""Scenario arm_payload on the built FMUs."""
 
 from typing import Any
 
@@ -8,15 +8,7 @@ import pytest
 from exo import poses
 from exo.experiment import Experiment
 
-from conftest import verdict_ids
-
 SCENARIO = "arm_payload"
-
-
-@pytest.mark.parametrize("metric", verdict_ids(SCENARIO))
-def test_verdict_does_not_fail(metric: str, results: dict[str, Any]) -> None:
-    result = results[metric]
-    assert result.verdict != "fail", f"{result.value:.6g} {result.unit}, expected {result.expectation()}"
 
 
 def test_the_payload_hangs_from_the_grip_to_the_release(experiment: Experiment) -> None:

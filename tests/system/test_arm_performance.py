@@ -1,4 +1,4 @@
-"""Scenario arm_performance on the built FMUs: every verdict is a test."""
+"""Scenario arm_performance on the built FMUs."""
 
 from pathlib import Path
 from typing import Any
@@ -10,15 +10,7 @@ from exo import experiment as experiments
 from exo.experiment import Experiment
 from exo.scenario import load
 
-from conftest import verdict_ids
-
 SCENARIO = "arm_performance"
-
-
-@pytest.mark.parametrize("metric", verdict_ids(SCENARIO))
-def test_verdict_does_not_fail(metric: str, results: dict[str, Any]) -> None:
-    result = results[metric]
-    assert result.verdict != "fail", f"{result.value:.6g} {result.unit}, expected {result.expectation()}"
 
 
 def test_the_published_errors_are_met_within_six_percent(results: dict[str, Any]) -> None:

@@ -1,7 +1,6 @@
-"""Scenario arm_stiff_hand on the built FMUs: every verdict is a test."""
+"""Scenario arm_stiff_hand on the built FMUs."""
 
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 import pytest
@@ -9,15 +8,7 @@ import pytest
 from exo import theory
 from exo.experiment import Experiment
 
-from conftest import verdict_ids
-
 SCENARIO = "arm_stiff_hand"
-
-
-@pytest.mark.parametrize("metric", verdict_ids(SCENARIO))
-def test_verdict_does_not_fail(metric: str, results: dict[str, Any]) -> None:
-    result = results[metric]
-    assert result.verdict != "fail", f"{result.value:.6g} {result.unit}, expected {result.expectation()}"
 
 
 def test_the_closed_form_changes_sign_between_the_cases_that_hold_and_those_that_grow() -> None:

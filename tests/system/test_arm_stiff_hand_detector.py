@@ -1,7 +1,6 @@
-"""Scenario arm_stiff_hand_detector on the built FMUs: every verdict is a test; no alarm in the paper's experiments."""
+"""Scenario arm_stiff_hand_detector on the built FMUs: no alarm in the paper's experiments."""
 
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
@@ -10,15 +9,7 @@ from exo import scenario as scenarios
 from exo import theory
 from exo.experiment import Experiment, run
 
-from conftest import verdict_ids
-
 SCENARIO = "arm_stiff_hand_detector"
-
-
-@pytest.mark.parametrize("metric", verdict_ids(SCENARIO))
-def test_verdict_does_not_fail(metric: str, results: dict[str, Any]) -> None:
-    result = results[metric]
-    assert result.verdict != "fail", f"{result.value:.6g} {result.unit}, expected {result.expectation()}"
 
 
 def test_what_the_largest_damping_holds_by_the_closed_form_lies_between_the_two_limit_cases() -> None:

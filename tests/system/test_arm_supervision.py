@@ -1,24 +1,14 @@
-"""Scenario arm_supervision on the built FMUs: every verdict is a test."""
+"""Scenario arm_supervision on the built FMUs."""
 
 from itertools import groupby
-from typing import Any
 
 import numpy as np
-import pytest
 
 from exo.experiment import Experiment
-
-from conftest import verdict_ids
 
 SCENARIO = "arm_supervision"
 OFF, INIT, READY, ENGAGED, HOLD, SOFT_STOP, FAULT = range(7)
 ACTING = [ENGAGED, HOLD, SOFT_STOP]
-
-
-@pytest.mark.parametrize("metric", verdict_ids(SCENARIO))
-def test_verdict_does_not_fail(metric: str, results: dict[str, Any]) -> None:
-    result = results[metric]
-    assert result.verdict != "fail", f"{result.value:.6g} {result.unit}, expected {result.expectation()}"
 
 
 def passed(experiment: Experiment, case: str) -> list[int]:

@@ -1,22 +1,12 @@
-"""Scenario budget on the built FMUs: every verdict is a test."""
-
-from typing import Any
+"""Scenario budget on the built FMUs."""
 
 import numpy as np
 import pytest
 
 from exo.experiment import Experiment
 
-from conftest import verdict_ids
-
 SCENARIO = "budget"
 T = 0.002
-
-
-@pytest.mark.parametrize("metric", verdict_ids(SCENARIO))
-def test_verdict_does_not_fail(metric: str, results: dict[str, Any]) -> None:
-    result = results[metric]
-    assert result.verdict != "fail", f"{result.value:.6g} {result.unit}, expected {result.expectation()}"
 
 
 @pytest.mark.parametrize(("case", "start"), [("10J", 10.0), ("100mJ", 0.1)])

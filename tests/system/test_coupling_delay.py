@@ -1,20 +1,8 @@
-"""Scenario coupling_delay on the built FMUs: every verdict is a test."""
-
-from typing import Any
-
-import pytest
+"""Scenario coupling_delay on the built FMUs."""
 
 from exo.experiment import Experiment
 
-from conftest import verdict_ids
-
 SCENARIO = "coupling_delay"
-
-
-@pytest.mark.parametrize("metric", verdict_ids(SCENARIO))
-def test_verdict_does_not_fail(metric: str, results: dict[str, Any]) -> None:
-    result = results[metric]
-    assert result.verdict != "fail", f"{result.value:.6g} {result.unit}, expected {result.expectation()}"
 
 
 def test_exchanging_at_once_equals_one_sample_of_delay_bit_for_bit(experiment: Experiment) -> None:

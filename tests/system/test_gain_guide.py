@@ -1,8 +1,7 @@
-"""Scenario gain_guide on the built FMUs: every verdict is a test; boundaries found by simulation alone."""
+"""Scenario gain_guide on the built FMUs: boundaries found by simulation alone."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 import pytest
@@ -14,16 +13,8 @@ from exo.simulate import plan, simulate
 from exo.tuning import region
 from exo.tuning.machine import Gains, Machine
 
-from conftest import verdict_ids
-
 SCENARIO = "gain_guide"
 GAINS = Gains(M_n=1.0, D_n=2.0, K=30.0, K_P=10.0)
-
-
-@pytest.mark.parametrize("metric", verdict_ids(SCENARIO))
-def test_verdict_does_not_fail(metric: str, results: dict[str, Any]) -> None:
-    result = results[metric]
-    assert result.verdict != "fail", f"{result.value:.6g} {result.unit}, expected {result.expectation()}"
 
 
 def grows(archives: Mapping[str, Archive], case: str, name: str, value: float) -> bool:
@@ -57,7 +48,7 @@ def test_the_gain_at_which_the_fmus_begin_to_ring_is_the_predicted_one(
     found = simulated_boundary(
         lambda K: grows(archives, f"gain_above_delay_{delay}", "controller.K", K), low=750.0, high=high
     )
-    # The issue's 10 %. The bisection's 1 %, and what may ring for long: less than 2 % is seen.
+    # docs/tuning.md: within 10 %. The bisection's 1 %, and what may ring for long: less than 2 % is seen.
     assert found == pytest.approx(predicted.high, rel=0.02)
 
 

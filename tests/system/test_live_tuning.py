@@ -1,21 +1,10 @@
-"""Scenario live_tuning on the built FMUs: every verdict is a test."""
-
-from typing import Any
+"""Scenario live_tuning on the built FMUs."""
 
 import numpy as np
-import pytest
 
 from exo.experiment import Experiment
 
-from conftest import verdict_ids
-
 SCENARIO = "live_tuning"
-
-
-@pytest.mark.parametrize("metric", verdict_ids(SCENARIO))
-def test_verdict_does_not_fail(metric: str, results: dict[str, Any]) -> None:
-    result = results[metric]
-    assert result.verdict != "fail", f"{result.value:.6g} {result.unit}, expected {result.expectation()}"
 
 
 def test_the_human_stays_on_the_wall_while_gains_change(experiment: Experiment) -> None:

@@ -7,6 +7,7 @@ import pytest
 
 from exo import metrics, theory
 from exo.errors import ExoError, ScenarioError
+from exo.metrics import basic, coupling, events, growth, loops, response, wall
 from exo.scenario import Check, Segment
 from exo.verdict import judge
 
@@ -20,13 +21,13 @@ def test_release_delay_is_the_first_tick_a_margin_from_the_wall() -> None:
     position = np.where(TIME < 5.005, 0.3, 0.2)
     position[100] = 0.0
     run = recording(time=TIME, plant__q=position, parameters={"plant.wall.q": 0.3})
-    delay = metrics.release_delay(run, position="plant.q", wall="plant.wall.q", margin=0.001, after=4.0)
+    delay = events.release_delay(run, position="plant.q", wall="plant.wall.q", margin=0.001, after=4.0)
     assert delay == pytest.approx(1.01)
 
 
 def test_release_delay_of_a_mass_that_stays_is_nan_and_fails() -> None:
     run = recording(time=TIME, plant__q=np.full(1000, 0.2995), parameters={"plant.wall.q": 0.3})
-    delay = metrics.release_delay(run, position="plant.q", wall="plant.wall.q", margin=0.001, after=4.0)
+    delay = events.release_delay(run, position="plant.q", wall="plant.wall.q", margin=0.001, after=4.0)
     assert math.isnan(delay)
     for check in (Check(value=1.0, within=1e9), Check(at_most=1e9), Check(at_least=-1e9)):
         result = judge(metric="m", title="", value=delay, unit="s", check=check, source="")
@@ -36,31 +37,31 @@ def test_release_delay_of_a_mass_that_stays_is_nan_and_fails() -> None:
 
 def test_windows_take_the_first_tick_and_leave_the_last() -> None:
     run = recording(time=TIME, x=TIME)
-    assert metrics.maximum(run, column="x", after=2.0, before=3.0) == pytest.approx(2.99)
-    assert metrics.mean(run, column="x", after=2.0, before=3.0) == pytest.approx(2.495)
-    assert metrics.max_abs(run, column="x") == pytest.approx(9.99)
+    assert basic.maximum(run, column="x", after=2.0, before=3.0) == pytest.approx(2.99)
+    assert basic.mean(run, column="x", after=2.0, before=3.0) == pytest.approx(2.495)
+    assert basic.max_abs(run, column="x") == pytest.approx(9.99)
 
 
 def test_max_abs_sees_negative_peaks() -> None:
-    assert metrics.max_abs(recording(time=TIME, x=-TIME), column="x") == pytest.approx(9.99)
+    assert basic.max_abs(recording(time=TIME, x=-TIME), column="x") == pytest.approx(9.99)
 
 
 def test_minimum_is_the_least_value_of_the_window() -> None:
     run = recording(time=TIME, x=-TIME)
-    assert metrics.minimum(run, column="x", before=3.0) == pytest.approx(-2.99)
+    assert basic.minimum(run, column="x", before=3.0) == pytest.approx(-2.99)
 
 
 def test_max_abs_while_looks_where_the_flag_is_set_and_is_nan_where_it_never_is() -> None:
     run = recording(time=TIME, x=-TIME, flag=TIME < 2.005, never=np.zeros(1000))
-    assert metrics.max_abs_while(run, column="x", flag="flag") == pytest.approx(2.0)
-    assert math.isnan(metrics.max_abs_while(run, column="x", flag="never"))
+    assert basic.max_abs_while(run, column="x", flag="flag") == pytest.approx(2.0)
+    assert math.isnan(basic.max_abs_while(run, column="x", flag="never"))
 
 
 def test_lowest_change_is_negative_once_the_column_falls_below_its_start() -> None:
     column = np.full(1000, 10.0)
-    assert metrics.lowest_change(recording(time=TIME, E=column), column="E") == 0.0
+    assert basic.lowest_change(recording(time=TIME, E=column), column="E") == 0.0
     column[500] = 9.5
-    assert metrics.lowest_change(recording(time=TIME, E=column), column="E") == -0.5
+    assert basic.lowest_change(recording(time=TIME, E=column), column="E") == -0.5
 
 
 def test_the_largest_step_is_that_into_a_tick_of_the_window() -> None:
@@ -68,25 +69,25 @@ def test_the_largest_step_is_that_into_a_tick_of_the_window() -> None:
     x[200:] = 1.0  # into t = 2.00 s
     x[300:] = -4.0
     run = recording(time=TIME, x=x, y=0.1 * TIME)
-    assert metrics.largest_step(run, columns=("x", "y"), after=2.0, before=3.0) == 1.0
-    assert metrics.largest_step(run, columns=("x",), after=2.01, before=3.0) == 0.0
-    assert metrics.largest_step(run, columns=("y",), after=0.0, before=3.0) == pytest.approx(0.001)
-    assert metrics.largest_step(run, columns=("y", "x"), after=2.5, before=3.01) == 5.0
+    assert basic.largest_step(run, columns=("x", "y"), after=2.0, before=3.0) == 1.0
+    assert basic.largest_step(run, columns=("x",), after=2.01, before=3.0) == 0.0
+    assert basic.largest_step(run, columns=("y",), after=0.0, before=3.0) == pytest.approx(0.001)
+    assert basic.largest_step(run, columns=("y", "x"), after=2.5, before=3.01) == 5.0
 
 
 def test_ticks_until_counts_from_the_first_tick_of_the_window() -> None:
     state = np.where(TIME < 5.0, 3, 6)
     run = recording(time=TIME, state=state)
-    assert metrics.ticks_until(run, column="state", value=6, after=4.0) == 100.0
-    assert metrics.ticks_until(run, column="state", value=6, after=5.0) == 0.0
-    assert math.isnan(metrics.ticks_until(run, column="state", value=2, after=0.0))
+    assert events.ticks_until(run, column="state", value=6, after=4.0) == 100.0
+    assert events.ticks_until(run, column="state", value=6, after=5.0) == 0.0
+    assert math.isnan(events.ticks_until(run, column="state", value=2, after=0.0))
 
 
 def test_rise_is_taken_above_the_mean_of_its_own_window() -> None:
     run = recording(time=TIME, z=np.where(TIME < 5.0, 1.0, 1.0 + 0.1 * (TIME - 5.0)))
-    value = metrics.rise(run, column="z", after=6.0, before=8.0, above_mean=(1.0, 4.0))
+    value = basic.rise(run, column="z", after=6.0, before=8.0, above_mean=(1.0, 4.0))
     assert value == pytest.approx(0.299)
-    assert metrics.peak_to_peak(run, column="z", after=6.0, before=8.0) == pytest.approx(0.199)
+    assert basic.peak_to_peak(run, column="z", after=6.0, before=8.0) == pytest.approx(0.199)
 
 
 def test_leaving_delay_counts_from_after_and_is_nan_for_what_stays() -> None:
@@ -94,19 +95,19 @@ def test_leaving_delay_counts_from_after_and_is_nan_for_what_stays() -> None:
     z[450] = 0.6
     run = recording(time=TIME, z=z)
     arguments = {"position": "z", "after": 5.0, "above_mean": (1.0, 4.0)}
-    assert metrics.leaving_delay(run, margin=0.002, **arguments) == pytest.approx(2.0)
-    assert math.isnan(metrics.leaving_delay(run, margin=0.004, **arguments))
+    assert events.leaving_delay(run, margin=0.002, **arguments) == pytest.approx(2.0)
+    assert math.isnan(events.leaving_delay(run, margin=0.004, **arguments))
 
 
 def test_mean_rate_is_taken_between_two_ticks() -> None:
     run = recording(time=TIME, z=TIME**2)
-    assert metrics.mean_rate(run, column="z", first=2.0, last=4.0) == pytest.approx(6.0)
+    assert basic.mean_rate(run, column="z", first=2.0, last=4.0) == pytest.approx(6.0)
 
 
 def test_jump_is_what_goes_beyond_the_velocity_before() -> None:
     z = 0.3 * TIME + np.where(TIME < 4.0, 0.0, 0.02 * (1.0 - np.exp(-10.0 * (TIME - 4.0))))
     run = recording(time=TIME, z=z, dz=np.full(1000, 0.3))
-    value = metrics.jump(run, position="z", velocity="dz", at=4.0, within=2.0)
+    value = events.jump(run, position="z", velocity="dz", at=4.0, within=2.0)
     assert value == pytest.approx(0.02, rel=1e-6)
 
 
@@ -114,7 +115,7 @@ def test_jump_is_what_goes_beyond_the_velocity_before() -> None:
 def test_the_growth_rate_of_a_known_swing_is_found(sigma: float) -> None:
     swing = 0.44 + 1e-4 * np.exp(sigma * TIME) * np.sin(9.0 * TIME + 0.7)
     run = recording(time=TIME, x=swing)
-    assert metrics.growth_rate(run, column="x", after=2.0, before=6.0) == pytest.approx(sigma, abs=1e-6)
+    assert growth.growth_rate(run, column="x", after=2.0, before=6.0) == pytest.approx(sigma, abs=1e-6)
 
 
 def test_spring_share_is_that_of_the_worst_axis() -> None:
@@ -123,14 +124,14 @@ def test_spring_share_is_that_of_the_worst_axis() -> None:
     errors = {"c__e_nr[1]": [0.0, 0.01], "c__e_nr[2]": [-0.015, 0.0], "c__e_nr[3]": [0.001, -0.0095]}
     run = recording(time=TIME[:2], parameters=parameters, **errors)
     # 200/400, 300/400, 95/100 N.
-    assert metrics.spring_share(run, controller="c") == pytest.approx(0.95)
+    assert coupling.spring_share(run, controller="c") == pytest.approx(0.95)
 
 
 def test_drift_is_compared_with_the_reaction_of_the_load() -> None:
     parameters = {"c.K[3]": 1000.0, "c.D_n[3]": 20.0, "c.alpha": 1.0}
     columns = {"c__p[3]": -0.01 * TIME, "c__f_a[3]": np.full(1000, 180.0)}
     run = recording(time=TIME, parameters=parameters, **columns)
-    value = metrics.drift_over_prediction(run, controller="c", axis=3, moving=(2.0, 5.0), loaded=(4.0, 5.0))
+    value = coupling.drift_over_prediction(run, controller="c", axis=3, moving=(2.0, 5.0), loaded=(4.0, 5.0))
     assert value == pytest.approx(0.01 / 0.009)
 
 
@@ -138,25 +139,25 @@ def test_only_a_loss_under_vacuum_is_a_break() -> None:
     held = np.array([False, True, True, False, True, True, False])
     vacuum = np.array([True, True, True, True, True, True, False])
     run = recording(time=TIME[:7], held=held, vacuum=vacuum)
-    assert metrics.bond_breaks(run, attached="held", vacuum="vacuum") == 1.0
+    assert events.bond_breaks(run, attached="held", vacuum="vacuum") == 1.0
 
 
 def test_the_residual_is_shared_over_the_work_that_went_through() -> None:
     # Work back and forth counts both ways: 3 J, then 1 J of another.
     run = recording(time=TIME[:3], r=[0.0, -0.02, 0.01], a=[0.0, 2.0, 1.0], b=[0.0, 0.0, 1.0])
-    assert metrics.residual_share(run, residual="r", works=("a", "b")) == pytest.approx(0.005)
+    assert basic.residual_share(run, residual="r", works=("a", "b")) == pytest.approx(0.005)
     idle = recording(time=TIME[:3], r=np.zeros(3), a=np.zeros(3))
-    assert math.isnan(metrics.residual_share(idle, residual="r", works=("a",)))
+    assert math.isnan(basic.residual_share(idle, residual="r", works=("a",)))
 
 
 def test_spring_force_takes_the_gains_from_the_run() -> None:
     run = recording(time=TIME[:3], e=[0.0, -0.05, 0.01], parameters={"K": 30.0, "K_P": 10.0})
-    assert metrics.max_spring_force(run, error="e", K="K", K_P="K_P") == pytest.approx(15.0)
+    assert coupling.max_spring_force(run, error="e", K="K", K_P="K_P") == pytest.approx(15.0)
 
 
 def test_the_fit_finds_amplitude_and_phase() -> None:
     omega = 2.0 * math.pi * 0.4
-    phasor = metrics.fit_phasor(time=TIME, signal=0.3 * np.sin(omega * TIME - 0.7), omega=omega)
+    phasor = response.fit_phasor(time=TIME, signal=0.3 * np.sin(omega * TIME - 0.7), omega=omega)
     assert abs(phasor) == pytest.approx(0.3, rel=1e-12)
     assert np.angle(phasor) == pytest.approx(-0.7, rel=1e-12)
 
@@ -165,7 +166,7 @@ def test_the_fit_finds_amplitude_and_phase() -> None:
     ("mask", "expected"), [([0, 1, 1, 0, 1, 1, 1, 0], [4, 5, 6]), ([1, 1, 0, 1], [0, 1]), ([0, 0], []), ([1], [0])]
 )
 def test_longest_stretch(mask: list[int], expected: list[int]) -> None:
-    assert metrics.longest_stretch(np.array(mask, dtype=bool)).tolist() == expected
+    assert wall.longest_stretch(np.array(mask, dtype=bool)).tolist() == expected
 
 
 def wall_run(*, M_n: float) -> object:
@@ -196,14 +197,14 @@ ARGUMENTS = {
 
 
 def test_the_wall_curve_fits_its_own_nominal_and_no_other() -> None:
-    assert metrics.wall_curve_error(wall_run(M_n=10.0), **ARGUMENTS) < 1e-12
-    assert metrics.wall_curve_error(wall_run(M_n=9.8), **ARGUMENTS) > 0.01
+    assert wall.wall_curve_error(wall_run(M_n=10.0), **ARGUMENTS) < 1e-12
+    assert wall.wall_curve_error(wall_run(M_n=9.8), **ARGUMENTS) > 0.01
 
 
 def test_the_wall_curve_of_a_mass_that_does_not_rest_is_nan() -> None:
     run = wall_run(M_n=10.0)
     run["p.dq"][::150] = 0.01
-    assert math.isnan(metrics.wall_curve_error(run, **ARGUMENTS))
+    assert math.isnan(wall.wall_curve_error(run, **ARGUMENTS))
 
 
 def test_the_wall_curve_obeys_the_textbook_solution() -> None:
@@ -239,13 +240,40 @@ def test_a_response_of_more_than_one_sine_is_refused() -> None:
     sine = Segment(kind="sine", frequency=1.0)
     object.__setattr__(run, "profiles", {"two": (sine, sine)})
     with pytest.raises(ValueError, match="too many values"):
-        metrics.measured_response(run, force="f", velocity="v", profile="two", after=0.0)
+        response.measured_response(run, force="f", velocity="v", profile="two", after=0.0)
+
+
+def test_the_desired_mass_is_the_robot_s_own_under_natural_only() -> None:
+    parameters = {"c.comparator.M": 6.0, "c.M_n": 5.0}
+    for law, mass in (("natural", 6.0), ("sliding_mode", 5.0), ("passive", 5.0)):
+        run = recording(time=TIME, parameters=parameters, choices={"c.law": law})
+        assert loops.desired_mass(run, controller="c") == mass
+
+
+def test_a_metric_takes_the_components_that_it_is_told() -> None:
+    names = {"M_n": 5.0, "D_n": 0.5, "K": 30.0, "K_P": 10.0, "alpha": 1.0, "T": 0.01}
+    parameters = {f"left.{name}": value for name, value in names.items()} | {"mass.M": 6.0, "mass.substep": 4e-4}
+    parameters["hand.k_h"] = 50.0
+    expected = theory.hand_growth_rate(loop=theory.Loop(M=6.0, substep=4e-4, **names), k_h=50.0)
+    swing = 1e-4 * np.exp(expected * TIME) * np.sin(3.0 * TIME)
+    run = recording(time=TIME, parameters=parameters, choices={"left.law": "passive"}, x=swing)
+    arguments = {"column": "x", "after": 1.0, "before": 6.0, "controller": "left", "plant": "mass", "operator": "hand"}
+    assert growth.testbed_hand_growth_error(run, **arguments) < 1e-6
+    called = metrics.evaluate(recording=run, function="testbed_hand_growth_error", arguments=arguments, owner="here")
+    assert called == growth.testbed_hand_growth_error(run, **arguments)
+    with pytest.raises(ExoError, match="plant"):
+        metrics.evaluate(
+            recording=run,
+            function="testbed_hand_growth_error",
+            arguments={key: value for key, value in arguments.items() if key != "plant"},
+            owner="here",
+        )
 
 
 def test_unknown_columns_functions_and_arguments_name_what_is_known() -> None:
     run = recording(time=TIME, plant__q=TIME)
     with pytest.raises(ExoError, match=r"no recorded column plant\.x.*plant\.q"):
-        metrics.maximum(run, column="plant.x")
+        basic.maximum(run, column="plant.x")
     with pytest.raises(ScenarioError, match=r"wall: unknown function maximal.*maximum"):
         metrics.check(function="maximal", arguments={}, owner="wall")
     with pytest.raises(ScenarioError, match="wall: maximum: got an unexpected keyword argument 'befor'"):

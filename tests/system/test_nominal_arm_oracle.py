@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 from exo.fmu import Archive, Instance
 from oracles.engines import Arm, Link, MuJoCo, Pinocchio, State
 
-#: Relative, in the largest element of M_n: some fifty roundings. Required of rigid-body terms by SPEC.md section 6.
+#: Relative, in the largest element of M_n: some fifty roundings. Required of rigid-body terms by
+#: docs/specification.md section 6.
 ROUNDING = 1e-12
 LINK = ("m", "x", "z", "I_xx", "I_yy", "I_zz", "I_xz")
 

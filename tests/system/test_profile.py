@@ -1,4 +1,4 @@
-"""Force profiles against SPEC.md's formulas."""
+"""Force profiles against the formulas of docs/specification.md section 5."""
 
 import numpy as np
 import pytest

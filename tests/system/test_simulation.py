@@ -58,6 +58,9 @@ def test_sampled_outputs_belong_to_the_tick_and_continuous_ones_to_its_instant(a
 def test_all_parameters_are_read_back(archives: Mapping[str, Archive]) -> None:
     run = simulate.simulate(plan=job(), archives=archives)
     assert run.parameter("controller.law") == 2
+    assert run.choice("controller.law") == "passive"
+    with pytest.raises(ExoError, match=r"no enumeration parameter controller\.K"):
+        run.choice("controller.K")
     assert run.parameter("plant.M") == 6.0
     assert run.parameter("plant.substep") == 8e-5
     with pytest.raises(ExoError, match=r"no parameter controller\.M .*controller\.M_n"):

@@ -128,7 +128,8 @@ def test_a_parameter_set_says_what_its_scenario_says(archives: Mapping[str, Arch
         p.name: (p.type, p.value, p.unit)
         for p in read_ssv(str(path), resource=ssp.resource("wall-standard_10_0.5")).parameters
     }
-    # The scenario's own lines; law 1 is `standard` (SPEC.md section 1). The last two are of the exchange order.
+    # The scenario's own lines; law 1 is `standard` (docs/specification.md section 1). The last two are of the
+    # exchange order.
     assert read == {
         "controller.K": ("Real", "30.0", "N.s/m"),
         "controller.K_P": ("Real", "10.0", "1/s"),

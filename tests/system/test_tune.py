@@ -39,7 +39,8 @@ def test_the_matrix_is_the_tick_written_down_a_second_time() -> None:
 @pytest.mark.parametrize(("K_P", "delay", "share"), [(0.1, 0, 1.9998), (10.0, 0, 1.9418), (10.0, 1, 0.79844)])
 def test_the_gain_ends_at_the_limit_of_the_exact_mass(K_P: float, delay: int, share: float) -> None:
     # The limit of the wholly sampled damper is K T/M = 2 without and about 0.83 with a sample of delay; K_P lowers it.
-    # SPEC.md section 1 has 1.88 to 1.95 and 0.78; fmu/admittance/tests/stability.rs finds them on the law itself.
+    # docs/specification.md section 1 has 1.88 to 1.95 and 0.78; fmu/admittance/tests/stability.rs finds them on the
+    # law itself.
     machine = replace(TESTBED, delay=delay, substep=0.0)
     interval = region.gain_interval(machine=machine, gains=replace(TESTBED_GAINS, K_P=K_P), M=6.0)
     assert interval is not None

@@ -36,8 +36,8 @@
 //!
 //! **Saturation.** What is measured is what was delivered. So `passive`, whose nominal feels what was *not* delivered,
 //! has no servo form and is refused; below the limit `passive_applied` is the same law. Under `passive_bounded` the spring
-//! slips as in the torque form, and at the limit |tau_m| ≥ f_max the reset applies (SPEC's step 3): v_n⁺ = v_b if
-//! v_b² ≤ v_n⁺², v_b = (y − K_P e)/(1 + K_P T/2) + dq.
+//! slips as in the torque form, and at the limit |tau_m| ≥ f_max the reset applies (docs/specification.md section 1,
+//! step 3): v_n⁺ = v_b if v_b² ≤ v_n⁺², v_b = (y − K_P e)/(1 + K_P T/2) + dq.
 //!
 //! **Energy.** H as in [`storage`], ΔG = ΔH + tau_m Δq − (K/alpha) f_h v_m T, known at t_{k+1}. The drive's torque varies
 //! within the sample, so tau_m Δq is its work up to K a² T³/12 at an acceleration a; the true work is the smaller one.

@@ -103,7 +103,7 @@ def _check_functions(scenario: Scenario) -> None:
     """Refuses a scenario with a wrong function or argument before anything runs."""
     for metric in scenario.metrics:
         owner = f"{scenario.id}: metric {metric.id}"
-        metrics.check(function=metric.function, arguments=metric.arguments, owner=owner)
+        metrics.check(function=metric.function, arguments=metric.arguments, owner=owner, components=scenario.components)
         for key in metric.paper.values():
             lookup(key)
 

@@ -12,7 +12,9 @@ from matplotlib.figure import Figure as Canvas
 
 from exo import poses, theory
 from exo.errors import ScenarioError
-from exo.metrics import loop_of, measured_response, window
+from exo.metrics.basic import window
+from exo.metrics.loops import loop_of
+from exo.metrics.response import measured_response
 from exo.recording import Recording
 from exo.scenario import Bands, Figure, Panel
 

@@ -16,8 +16,8 @@ CHAIN = ("base", "shoulder", "elbow", "handle")
 def table(*, poses: Poses, run: Recording) -> dict[str, list[float]]:
     """Points in the arm's own vertical plane at each instant: r, the distance from the yaw axis, and z, the height (m).
 
-    Kinematics of SPEC.md section 4: with c_i = cos, s_i = sin of the pitch angles q₂ and q₂ + q₃, positive pitch lifts.
-    `held` says whether a payload hangs at the pad.
+    Kinematics of docs/specification.md section 4: with c_i = cos, s_i = sin of the pitch angles q₂ and q₂ + q₃;
+    positive pitch lifts. `held` says whether a payload hangs at the pad.
     """
     k = [_tick(run, instant) for instant in poses.times]
     value = {

@@ -27,6 +27,8 @@ class Recording:
     units: Mapping[str, str]
     #: All parameters as the FMUs held them after initialization, by `component.name`.
     parameters: Mapping[str, float | int | bool]
+    #: Of parameters that are enumerations, the item's name.
+    choices: Mapping[str, str]
     #: The force profiles that were applied.
     profiles: Mapping[str, tuple[Segment, ...]]
     #: Time that the loop took (s).
@@ -46,6 +48,13 @@ class Recording:
             return float(self.parameters[name])
         except KeyError:
             raise ExoError(f"no parameter {name}{close_matches(name, self.parameters)}") from None
+
+    def choice(self, name: str) -> str:
+        """The item of a component's enumeration parameter, for instance the law's name."""
+        try:
+            return self.choices[name]
+        except KeyError:
+            raise ExoError(f"no enumeration parameter {name}{close_matches(name, self.choices)}") from None
 
     @property
     def step(self) -> float:

@@ -2,9 +2,7 @@
 
 import json
 import math
-import tomllib
-from collections.abc import Iterable
-from importlib import resources
+from collections.abc import Iterable, Iterator
 from importlib.resources.abc import Traversable
 from pathlib import Path
 from typing import Annotated, Any, Literal, Self
@@ -19,6 +17,7 @@ from pydantic import (
     model_validator,
 )
 
+from exo import expansion
 from exo.errors import ScenarioError, close_matches
 from exo.naming import expand_names, expand_values, expand_wires
 
@@ -149,7 +148,7 @@ class Curve(Data):
 
     case: Identifier
     column: Qualified
-    label: str
+    label: str = ""
     color: str = ""
     dashed: bool = False
 
@@ -283,23 +282,21 @@ def _known(owner: str, kind: str, names: Iterable[str], known: Iterable[str]) ->
             raise ValueError(f"{owner}: unknown {kind} {name}{close_matches(name, known)}")
 
 
-def parse(*, text: str, origin: str) -> Scenario:
-    """A scenario from TOML text; `origin` is the file's name for messages."""
-    try:
-        data = tomllib.loads(text)
-    except tomllib.TOMLDecodeError as error:
-        raise ScenarioError(f"{origin}: not TOML: {error}") from error
+def parse(*, text: str, origin: str, folder: Traversable | None = None) -> Scenario:
+    """A scenario from TOML text; `origin` is the file's name for messages, `folder` where a path to a base starts."""
+    data = expansion.joined(expansion.read(text, origin=origin), origin=origin, folder=folder or Path())
+    data = expansion.expanded(data, origin=origin)
     try:
         # By way of JSON, where strict validation takes arrays for tuples.
         return Scenario.model_validate_json(json.dumps(data, default=str))
     except ValidationError as error:
-        raise ScenarioError("\n".join(_sentences(error, origin))) from error
+        raise ScenarioError("\n".join(_sentences(error, origin, data))) from error
 
 
-def _sentences(error: ValidationError, origin: str) -> list[str]:
+def _sentences(error: ValidationError, origin: str, data: Any) -> list[str]:
     lines = []
     for problem in error.errors(include_url=False):
-        key = ".".join(str(part) for part in problem["loc"])
+        key = ".".join(_steps(problem["loc"], data))
         where = f"{origin}: {key}" if key else origin
         match problem["type"]:
             case "extra_forbidden":
@@ -313,10 +310,20 @@ def _sentences(error: ValidationError, origin: str) -> list[str]:
     return lines
 
 
+def _steps(place: tuple[int | str, ...], data: Any) -> Iterator[str]:
+    """The way to a value, with ids in place of numbers."""
+    for step in place:
+        try:
+            data = data[step]
+        except (KeyError, IndexError, TypeError):
+            data = None
+        named = isinstance(step, int) and isinstance(data, dict) and "id" in data
+        yield str(data["id"] if named else step)
+
+
 def built_in() -> dict[str, Traversable]:
     """The scenarios that come with the harness: id → file."""
-    folder = resources.files("exo") / "scenarios"
-    files = (file for file in folder.iterdir() if file.name.endswith(".toml"))
+    files = (file for file in expansion.home().iterdir() if file.name.endswith(".toml"))
     return {file.name.removesuffix(".toml"): file for file in sorted(files, key=lambda f: f.name)}
 
 
@@ -326,8 +333,8 @@ def load(name: str) -> Scenario:
         path = Path(name)
         if not path.is_file():
             raise ScenarioError(f"{name}: no such scenario file")
-        return parse(text=path.read_text(encoding="utf-8"), origin=path.name)
+        return parse(text=path.read_text(encoding="utf-8"), origin=path.name, folder=path.parent)
     known = built_in()
     if name not in known:
         raise ScenarioError(f"unknown scenario {name}{close_matches(name, known)}")
-    return parse(text=known[name].read_text(encoding="utf-8"), origin=known[name].name)
+    return parse(text=known[name].read_text(encoding="utf-8"), origin=known[name].name, folder=expansion.home())

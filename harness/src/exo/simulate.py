@@ -23,7 +23,7 @@ from numpy.typing import NDArray
 
 from exo import profile
 from exo.errors import ExoError, FmuError, ScenarioError
-from exo.fmu import DTYPES, Archive, Instance, Kind, References
+from exo.fmu import DTYPES, Archive, Instance, Kind, References, choices
 from exo.recording import Recording
 from exo.scenario import PROFILE, Case, Coupling, Scenario, Segment, Value
 
@@ -167,10 +167,25 @@ def simulate(*, plan: Plan, archives: Mapping[str, Archive]) -> Recording:
         columns=columns,
         units=units,
         parameters=parameters,
+        choices=_choices(plan, archives, parameters),
         profiles=plan.profiles,
         wall_time=wall_time,
         cpu_time=cpu_time,
     )
+
+
+def _choices(
+    plan: Plan, archives: Mapping[str, Archive], parameters: Mapping[str, float | int | bool]
+) -> dict[str, str]:
+    """Names of the items that the enumeration parameters have."""
+    found = {}
+    for key, value in parameters.items():
+        component, name = key.split(".", 1)
+        items = choices(archives[plan.components[component]].variable(name))
+        for item, number in items.items():
+            if number == value:
+                found[key] = item
+    return found
 
 
 def _unit(archive: Archive, name: str) -> str:

@@ -132,7 +132,7 @@ class Opened:
 
 
 def opened(*, loop: Loop) -> Opened:
-    """The implicit midpoint law of SPEC.md section 1 and a free mass without friction.
+    """The implicit midpoint law of docs/specification.md section 1 and a free mass without friction.
 
     The mass takes its n substeps by backward Euler, as `sampled_tick`; a substep of 0 stands for the exact mass
     (n → ∞).

@@ -15,9 +15,11 @@ pub const NO_SETTLING: u16 = 2;
 pub const NO_RESERVE: u16 = 4;
 /// Lets a force that will brake pay beforehand.
 pub const BRAKING_PAYS: u16 = 8;
-/// The nominal feels the y that was asked for, not the one that is delivered: SPEC.md's first wrong reading.
+/// The nominal feels the y that was asked for, not the one that is delivered: the first wrong reading of
+/// docs/specification.md section 1.
 pub const FEELS_THE_DEMAND: u16 = 16;
-/// The nominal's velocity is not set back while the coupling is at its limit: SPEC.md's second wrong reading.
+/// The nominal's velocity is not set back while the coupling is at its limit: the second wrong reading of
+/// docs/specification.md section 1.
 pub const NO_RESET: u16 = 32;
 /// The spring is not cut to what the limit allows.
 pub const NO_SLIP: u16 = 64;

@@ -170,7 +170,7 @@ impl Subject<3> for Arm {
         })
     }
 
-    /// SPEC.md section 4: the arm's start pose.
+    /// docs/specification.md section 4: the arm's start pose.
     fn home() -> Vector3<f64> {
         Vector3::new(0.0, -1.480_96, 1.701_38)
     }

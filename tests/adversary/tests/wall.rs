@@ -1,5 +1,5 @@
-//! The wall experiment of SPEC.md section 5 with the second writing of the law: what the two wrong readings of
-//! `passive_bounded` do, without a budget that could hide it.
+//! The wall experiment of docs/specification.md section 5 with the second writing of the law: what the two wrong
+//! readings of `passive_bounded` do, without a budget that could hide it.
 #![allow(non_snake_case, reason = "the paper's symbols")]
 
 use admittance::{Bounds, Gains, Reach, Settings};
@@ -87,9 +87,9 @@ const CASES: [(f64, f64, f64); 4] = [
     (10.0, 0.5, 0.434),
 ];
 
-/// SPEC.md's figures, to its tolerance.
+/// The figures of docs/specification.md section 5, wall, to its tolerance.
 #[test]
-fn the_second_writing_lets_go_of_the_wall_when_SPEC_says() {
+fn the_second_writing_lets_go_of_the_wall_when_the_specification_says() {
     for (M_n, D_n, expected) in CASES {
         let run = run::<0>(M_n, D_n);
         assert!(
@@ -101,7 +101,7 @@ fn the_second_writing_lets_go_of_the_wall_when_SPEC_says() {
     }
 }
 
-/// SPEC.md: 0.2 to 6 s.
+/// docs/specification.md section 1: 0.2 to 6 s.
 #[test]
 fn without_the_reset_the_robot_sticks_to_the_wall() {
     let delays = CASES.map(|(M_n, D_n, expected)| {

@@ -35,7 +35,7 @@ class Link:
 
 @dataclass(frozen=True, kw_only=True)
 class Arm:
-    """SPEC.md section 4: lengths (m), points of link 3 as (x, z), links, rotors (kg·m²) and gears."""
+    """docs/specification.md section 4: lengths (m), points of link 3 as (x, z), links, rotors (kg·m²) and gears."""
 
     A1: float = 0.06
     L1: float = 0.32

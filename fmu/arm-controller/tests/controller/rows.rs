@@ -42,7 +42,7 @@ fn start_values_lie_within_their_bounds_and_names_are_unique() {
     }
 }
 
-/// SPEC.md, section 7: what others rely on.
+/// The names that importers rely on: none may go.
 #[test]
 fn the_names_that_others_rely_on_are_there() {
     let names = |wanted: fn(Causality) -> bool| -> HashSet<String> {

@@ -1,0 +1,84 @@
+"""`base`: a scenario starts from another file, and whatever stands in it replaces what the base says."""
+
+import tomllib
+from importlib import resources
+from importlib.resources.abc import Traversable
+from pathlib import Path
+from typing import Any
+
+from exo.errors import ScenarioError, close_matches
+
+#: What is joined entry by entry, and how deep; everything else is replaced as a whole.
+JOINED = {"axes": 1, "inputs": 1, "profiles": 1, "known": 2, "components": 3}
+
+
+def read(text: str, *, origin: str) -> dict[str, Any]:
+    """The tables of a TOML text, with `parameters` put where they belong: into the components."""
+    try:
+        data = tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        raise ScenarioError(f"{origin}: not TOML: {error}") from error
+    parameters = data.pop("parameters", {})
+    if not isinstance(parameters, dict):
+        raise ScenarioError(f'{origin}: parameters: got {parameters!r}; expected a table of "component.name" = value')
+    own: dict[str, Any] = {}
+    for key, value in parameters.items():
+        component, dot, name = key.partition(".")
+        if not dot or not name:
+            raise ScenarioError(f"{origin}: parameters.{key}: got {value!r}; expected a name as component.variable")
+        own.setdefault(component, {"parameters": {}})["parameters"][name] = value
+    return join(data, {"components": own}, JOINED) if own else data
+
+
+def join(base: dict[str, Any], own: dict[str, Any], depths: dict[str, int]) -> dict[str, Any]:
+    """`own` over `base`: tables named in `depths` entry by entry. What `own` says comes last, so that it also wins
+    where ranges such as `K[1..3]` overlap; a component keeps its place, which is its turn to step."""
+    found = dict(base)
+    for key, value in own.items():
+        depth = depths.get(key, 0)
+        found[key] = _deep(found[key], value, depth) if depth and key in found else value
+    return found
+
+
+def _deep(base: Any, own: Any, depth: int) -> Any:
+    if not depth or not isinstance(base, dict) or not isinstance(own, dict):
+        return own
+    if depth == 1:
+        return {key: value for key, value in base.items() if key not in own} | own
+    return base | {key: _deep(base.get(key), value, depth - 1) for key, value in own.items()}
+
+
+def joined(data: dict[str, Any], *, origin: str, folder: Traversable, above: tuple[str, ...] = ()) -> dict[str, Any]:
+    """`data` over its base, and that over its own; `folder` is where the file lies, which a base's path starts from."""
+    if "base" not in data:
+        return data
+    own = dict(data)
+    name = own.pop("base")
+    if not isinstance(name, str):
+        raise ScenarioError(f"{origin}: base: got {name!r}; expected the name of a base or a path that ends in .toml")
+    file = folder / name if name.endswith(".toml") else named().get(name)
+    if file is None:
+        raise ScenarioError(
+            f"{origin}: base: unknown base {name}{close_matches(name, named())}; expected one or a path"
+        )
+    if not file.is_file():
+        raise ScenarioError(f"{origin}: base: no such file {name}; expected a path from the file's own folder")
+    if str(file) in above:
+        raise ScenarioError(f"{origin}: base: {name} starts from itself; expected bases that end")
+    base = read(file.read_text(encoding="utf-8"), origin=file.name)
+    start = folder / Path(name).parent if name.endswith(".toml") else home()
+    base = joined(base, origin=file.name, folder=start, above=(*above, str(file)))
+    base.pop("id", None)
+    return join(base, own, JOINED)
+
+
+def home() -> Traversable:
+    """Where the scenarios of the harness lie."""
+    return resources.files("exo") / "scenarios"
+
+
+def named() -> dict[str, Traversable]:
+    """What `base` can name: the files of `scenarios/bases`, then the scenarios themselves."""
+    folders = (home(), home() / "bases")
+    files = (file for folder in folders for file in folder.iterdir() if file.name.endswith(".toml"))
+    return {file.name.removesuffix(".toml"): file for file in sorted(files, key=lambda file: file.name)}

@@ -1,0 +1,48 @@
+"""Metric functions by name, and how a scenario calls them."""
+
+import inspect
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from exo.errors import ScenarioError, close_matches
+from exo.recording import Recording
+
+Function = Callable[..., float]
+REGISTRY: dict[str, Function] = {}
+#: Arguments that name a component. One that a scenario leaves out is the component of that very name.
+COMPONENTS = ("controller", "plant", "operator")
+
+
+def metric(function: Function) -> Function:
+    """Registers a function under its name."""
+    REGISTRY[function.__name__] = function
+    return function
+
+
+def complete(function: str, arguments: Mapping[str, Any]) -> dict[str, Any]:
+    """The arguments with the components that they leave out."""
+    taken = inspect.signature(REGISTRY[function]).parameters if function in REGISTRY else {}
+    return {name: name for name in COMPONENTS if name in taken} | dict(arguments)
+
+
+def evaluate(*, recording: Recording, function: str, arguments: Mapping[str, Any], owner: str) -> float:
+    """Calls a registered function; unknown names and wrong arguments are errors that name `owner`."""
+    check(function=function, arguments=arguments, owner=owner)
+    return float(REGISTRY[function](recording, **complete(function, arguments)))
+
+
+def check(
+    *, function: str, arguments: Mapping[str, Any], owner: str, components: Mapping[str, object] | None = None
+) -> None:
+    """Whether the function exists, takes these arguments, and names components that are there, where they are given."""
+    if function not in REGISTRY:
+        raise ScenarioError(f"{owner}: unknown function {function}{close_matches(function, REGISTRY)}")
+    full = complete(function, arguments)
+    try:
+        inspect.signature(REGISTRY[function]).bind(None, **full)
+    except TypeError as error:
+        raise ScenarioError(f"{owner}: {function}: {error}") from error
+    for name in COMPONENTS:
+        if components is not None and name in full and full[name] not in components:
+            known = close_matches(str(full[name]), components)
+            raise ScenarioError(f"{owner}: {function}: {name}: unknown component {full[name]}{known}")
