@@ -5,6 +5,7 @@ use nalgebra::Vector3;
 use super::kinematics::{Point, Pose};
 use super::parameters::Parameters;
 use super::problem::Path;
+use super::rigid_body::RigidBody;
 
 /// What acts on the arm, held over a run of substeps.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -72,5 +73,21 @@ impl Place {
             handle: pose.point(lengths, lengths.handle),
             pad: pose.point(lengths, lengths.pad),
         }
+    }
+}
+
+/// What follows from the joint angles and the payload: where the arm is, and the rigid body there.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Configuration {
+    pub(crate) place: Place,
+    pub(crate) body: RigidBody,
+}
+
+impl Configuration {
+    /// The arm in `state`.
+    pub(crate) fn of(parameters: &Parameters, state: &State) -> Self {
+        let place = Place::at(parameters, &state.q);
+        let body = parameters.body(&place.pose, state.attached);
+        Self { place, body }
     }
 }

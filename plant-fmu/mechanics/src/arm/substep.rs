@@ -5,14 +5,12 @@ use nalgebra::{Matrix3, Vector3};
 use super::drive::Drive;
 use super::floored;
 use super::flow::{Flow, Taken};
-use super::guess::Guess;
 use super::kinematics::Pose;
 use super::parameters::Parameters;
-use super::payload::{self, Event};
+use super::payload;
 use super::problem::{Contact, FACINGS, Joint, Problem, Solution};
 use super::rigid_body::RigidBody;
-use super::solver;
-use super::state::{Inputs, Place, Shown, State};
+use super::state::{Configuration, Inputs, Place, Shown, State};
 use super::surface::Surface;
 
 impl Parameters {
@@ -81,11 +79,10 @@ pub fn problem(
 pub(crate) struct Posed<'a> {
     pub(crate) parameters: &'a Parameters,
     pub(crate) state: &'a State,
-    pub(crate) place: &'a Place,
+    pub(crate) from: &'a Configuration,
     pub(crate) inputs: &'a Inputs,
     /// Torques at the joints (N·m).
     pub(crate) tau: Vector3<f64>,
-    pub(crate) body: RigidBody,
     pub(crate) problem: Problem,
     pub(crate) dt: f64,
 }
@@ -93,7 +90,8 @@ pub(crate) struct Posed<'a> {
 /// Where a substep arrives, what it showed and what it moved; the payload is still as before.
 pub(crate) struct Arrived {
     pub(crate) state: State,
-    pub(crate) place: Place,
+    /// None where the joints did not move.
+    pub(crate) configuration: Option<Configuration>,
     pub(crate) shown: Shown,
     pub(crate) flow: Flow,
     /// Force of the table along its normal (N).
@@ -106,20 +104,18 @@ impl<'a> Posed<'a> {
         parameters: &'a Parameters,
         drive: &Drive,
         state: &'a State,
-        place: &'a Place,
+        from: &'a Configuration,
         inputs: &'a Inputs,
         dt: f64,
     ) -> Self {
         let tau = drive.step(&state.tau, &Vector3::from(inputs.tau_a));
-        let body = parameters.body(&place.pose, state.attached);
-        let problem = problem(parameters, state, place, &body, &tau, inputs, dt);
+        let problem = problem(parameters, state, &from.place, &from.body, &tau, inputs, dt);
         Self {
             parameters,
             state,
-            place,
+            from,
             inputs,
             tau,
-            body,
             problem,
             dt,
         }
@@ -131,10 +127,9 @@ impl<'a> Posed<'a> {
         let Self {
             parameters,
             state,
-            place,
+            from,
             inputs,
             ref tau,
-            ref body,
             ref problem,
             dt,
         } = *self;
@@ -147,20 +142,22 @@ impl<'a> Posed<'a> {
         for (q, stops) in next.q.iter_mut().zip(&parameters.stops) {
             *q = q.max(stops.min).min(stops.max); // not beyond a stop, not by rounding either
         }
-        let there = Place::at(parameters, &next.q);
+        let configuration =
+            (!identical(&next.q, &state.q)).then(|| Configuration::of(parameters, &next));
+        let to = configuration.as_ref().unwrap_or(from);
         for (k, surface) in parameters.surfaces().iter().enumerate() {
-            let penetration = surface.penetration(FACINGS[k], there.pad.p[FACINGS[k].axis()]);
+            let penetration = surface.penetration(FACINGS[k], to.place.pad.p[FACINGS[k].axis()]);
             next.s[k] = penetration.max(surface.wall().relaxed(state.s[k], dt));
         }
 
         let friction = Vector3::from_fn(|i, _| problem.joints[i].friction(solution.joint[i]));
         let flow = Taken {
             parameters,
-            body,
+            body: &from.body,
             solution,
             friction: &friction,
-            before: (state, place),
-            after: (&next, &there),
+            before: (state, &from.place),
+            after: (&next, &to.place),
             dt,
         }
         .flow(inputs);
@@ -172,13 +169,13 @@ impl<'a> Posed<'a> {
             path: solution.path,
         };
         if state.attached {
-            let a = (there.pad.J * next.dq - place.pad.J * state.dq) / dt;
+            let a = (to.place.pad.J * next.dq - from.place.pad.J * state.dq) / dt;
             let (m, gravity) = (parameters.payload_m, &parameters.masses.gravity);
             shown.tension = payload::tension(m, &a, gravity, &shown.f_e);
         }
         Arrived {
             state: next,
-            place: there,
+            configuration,
             shown,
             flow,
             pressure: solution.normal[0] / dt,
@@ -186,54 +183,7 @@ impl<'a> Posed<'a> {
     }
 }
 
-impl Arrived {
-    /// The payload is gripped, released or lost.
-    #[inline]
-    pub(crate) fn exchange(&mut self, parameters: &Parameters, event: Event) {
-        if event == Event::Stays || parameters.payload_m == 0.0 {
-            return;
-        }
-        let Self {
-            state, place, flow, ..
-        } = self;
-        let m = parameters.payload_m;
-        let potential = -m * Vector3::from(parameters.masses.gravity).dot(&place.pad.p);
-        let without = parameters.body(&place.pose, false);
-        if event == Event::Attaches {
-            let with = parameters.body(&place.pose, true);
-            let v = payload::gripped(&without, &with, &state.dq);
-            flow.payload = potential;
-            flow.loss_grip =
-                without.kinetic(&(state.dq - v)) + 0.5 * m * (place.pad.J * v).norm_squared();
-            state.dq = v;
-            state.attached = true;
-        } else {
-            flow.payload = -(potential + 0.5 * m * (place.pad.J * state.dq).norm_squared());
-            state.attached = false;
-        }
-    }
-}
-
-/// Advances `state` by `dt` (s) with `inputs` held. `place` is the arm at `state.q`, and afterwards at the new one; `guess`
-/// carries the solver's guess on.
-pub fn substep(
-    parameters: &Parameters,
-    drive: &Drive,
-    state: &mut State,
-    place: &mut Place,
-    guess: &mut Guess,
-    inputs: &Inputs,
-    dt: f64,
-) -> (Shown, Flow) {
-    let posed = Posed::at(parameters, drive, state, place, inputs, dt);
-    let mut arrived = posed.take(&solver::solve(&posed.problem, guess));
-    let event = parameters.vacuum.event(
-        state.attached,
-        inputs.vacuum,
-        arrived.shown.tension,
-        arrived.pressure,
-    );
-    arrived.exchange(parameters, event);
-    (*state, *place) = (arrived.state, arrived.place);
-    (arrived.shown, arrived.flow)
+/// Equal in every bit: −0 is not 0.
+fn identical(a: &Vector3<f64>, b: &Vector3<f64>) -> bool {
+    a.iter().zip(b).all(|(a, b)| a.to_bits() == b.to_bits())
 }
