@@ -4,14 +4,11 @@ use nalgebra::Vector3;
 
 use super::drive::Drive;
 use super::energy::{Energy, Ledger, Stored};
-use super::flow::Flow;
 use super::guess::Guess;
 use super::parameters::{Parameters, Start};
-use super::payload::{self, Event};
 use super::rigid_body::RigidBody;
 use super::solver;
 use super::state::{Configuration, Inputs, Place, Shown, State};
-use super::substep::{Arrived, Posed};
 use crate::ParameterError;
 
 /// The 3-DoF geared exoskeleton arm with its payload, table and wall.
@@ -19,13 +16,13 @@ use crate::ParameterError;
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(from = "Saved", into = "Saved"))]
 pub struct Arm {
-    parameters: Parameters,
-    state: State,
+    pub(super) parameters: Parameters,
+    pub(super) state: State,
     /// Follows from `parameters` and `state`.
-    configuration: Configuration,
+    pub(super) configuration: Configuration,
     pub(crate) guess: Guess,
     pub(crate) shown: Shown,
-    ledger: Ledger,
+    pub(super) ledger: Ledger,
 }
 
 impl Default for Arm {
@@ -68,67 +65,17 @@ impl Arm {
     pub fn advance(&mut self, inputs: &Inputs, n: u32, dt: f64) {
         let drive = Drive::new(self.parameters.drive_cutoff, dt);
         for _ in 0..n {
-            let posed = self.posed(&drive, inputs, dt);
-            let mut guess = self.guess;
-            let arrived = posed.take(&solver::solve(&posed.problem, &mut guess));
+            let equation = self.equation(&drive, inputs, dt);
+            let solution = solver::solve(&equation.problem, &mut self.guess);
+            let moved = self.take(&equation, &solution);
             let event = self.parameters.vacuum.event(
                 self.state.attached,
                 inputs.vacuum,
-                arrived.shown.tension,
-                arrived.pressure,
+                self.shown.tension,
+                moved.pressure,
             );
-            self.guess = guess;
-            self.arrive(&arrived, event);
+            self.finish(moved.flow, event);
         }
-    }
-
-    /// A substep from here, not yet solved.
-    pub(crate) fn posed<'a>(&'a self, drive: &Drive, inputs: &'a Inputs, dt: f64) -> Posed<'a> {
-        Posed::at(
-            &self.parameters,
-            drive,
-            &self.state,
-            &self.configuration,
-            inputs,
-            dt,
-        )
-    }
-
-    /// Goes where a substep arrived; then the payload is gripped, released or lost.
-    pub(crate) fn arrive(&mut self, arrived: &Arrived, event: Event) {
-        (self.state, self.shown) = (arrived.state, arrived.shown);
-        if let Some(configuration) = arrived.configuration {
-            self.configuration = configuration;
-        }
-        let mut flow = arrived.flow;
-        if event != Event::Stays && self.parameters.payload_m > 0.0 {
-            self.exchange(event, &mut flow);
-        }
-        self.ledger.book(&flow);
-    }
-
-    fn exchange(&mut self, event: Event, flow: &mut Flow) {
-        let Self {
-            parameters,
-            state,
-            configuration,
-            ..
-        } = self;
-        let Configuration { place, body } = configuration;
-        let m = parameters.payload_m;
-        let potential = -m * Vector3::from(parameters.masses.gravity).dot(&place.pad.p);
-        state.attached = event == Event::Attaches;
-        let exchanged = parameters.body(&place.pose, state.attached);
-        if state.attached {
-            let v = payload::gripped(body, &exchanged, &state.dq);
-            flow.payload = potential;
-            flow.loss_grip =
-                body.kinetic(&(state.dq - v)) + 0.5 * m * (place.pad.J * v).norm_squared();
-            state.dq = v;
-        } else {
-            flow.payload = -(potential + 0.5 * m * (place.pad.J * state.dq).norm_squared());
-        }
-        *body = exchanged;
     }
 
     /// What the arm is made of.

@@ -66,8 +66,11 @@ pub struct Place {
 impl Place {
     /// The arm at joint angles `q` (rad).
     pub fn at(parameters: &Parameters, q: &Vector3<f64>) -> Self {
+        Self::of(parameters, Pose::at(q))
+    }
+
+    fn of(parameters: &Parameters, pose: Pose) -> Self {
         let lengths = &parameters.lengths;
-        let pose = Pose::at(q);
         Self {
             pose,
             handle: pose.point(lengths, lengths.handle),
@@ -86,8 +89,10 @@ pub(crate) struct Configuration {
 impl Configuration {
     /// The arm in `state`.
     pub(crate) fn of(parameters: &Parameters, state: &State) -> Self {
-        let place = Place::at(parameters, &state.q);
-        let body = parameters.body(&place.pose, state.attached);
-        Self { place, body }
+        let pose = Pose::at(&state.q);
+        Self {
+            place: Place::of(parameters, pose),
+            body: parameters.body(&pose, state.attached),
+        }
     }
 }

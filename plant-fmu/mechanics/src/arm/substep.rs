@@ -8,6 +8,7 @@ use super::flow::{Flow, Taken};
 use super::kinematics::Pose;
 use super::parameters::Parameters;
 use super::payload;
+use super::plant::Arm;
 use super::problem::{Contact, FACINGS, Joint, Problem, Solution};
 use super::rigid_body::RigidBody;
 use super::state::{Configuration, Inputs, Place, Shown, State};
@@ -75,108 +76,99 @@ pub fn problem(
     }
 }
 
-/// A substep whose equation is put together, but not solved: from where it starts, and what acts.
-pub(crate) struct Posed<'a> {
-    pub(crate) parameters: &'a Parameters,
-    pub(crate) state: &'a State,
-    pub(crate) from: &'a Configuration,
-    pub(crate) inputs: &'a Inputs,
+/// A substep whose equation is put together, but not solved.
+pub(crate) struct Equation<'a> {
+    inputs: &'a Inputs,
     /// Torques at the joints (N·m).
-    pub(crate) tau: Vector3<f64>,
+    tau: Vector3<f64>,
     pub(crate) problem: Problem,
-    pub(crate) dt: f64,
+    dt: f64,
 }
 
-/// Where a substep arrives, what it showed and what it moved; the payload is still as before.
-pub(crate) struct Arrived {
-    pub(crate) state: State,
-    /// None where the joints did not move.
-    pub(crate) configuration: Option<Configuration>,
-    pub(crate) shown: Shown,
+/// What a substep moved; the payload is still as before.
+pub(crate) struct Moved {
     pub(crate) flow: Flow,
     /// Force of the table along its normal (N).
     pub(crate) pressure: f64,
 }
 
-impl<'a> Posed<'a> {
+impl Arm {
+    /// The substep of `dt` (s) from here.
     #[inline]
-    pub(crate) fn at(
-        parameters: &'a Parameters,
-        drive: &Drive,
-        state: &'a State,
-        from: &'a Configuration,
-        inputs: &'a Inputs,
-        dt: f64,
-    ) -> Self {
-        let tau = drive.step(&state.tau, &Vector3::from(inputs.tau_a));
-        let problem = problem(parameters, state, &from.place, &from.body, &tau, inputs, dt);
-        Self {
+    pub(crate) fn equation<'a>(&self, drive: &Drive, inputs: &'a Inputs, dt: f64) -> Equation<'a> {
+        let Self {
             parameters,
             state,
-            from,
+            configuration: Configuration { place, body },
+            ..
+        } = self;
+        let tau = drive.step(&state.tau, &Vector3::from(inputs.tau_a));
+        Equation {
             inputs,
             tau,
-            problem,
+            problem: problem(parameters, state, place, body, &tau, inputs, dt),
             dt,
         }
     }
 
-    /// What the `solution` does.
+    /// Does what the `solution` of the `equation` says.
     #[inline]
-    pub(crate) fn take(&self, solution: &Solution) -> Arrived {
+    pub(crate) fn take(&mut self, equation: &Equation<'_>, solution: &Solution) -> Moved {
+        let Equation {
+            inputs,
+            tau,
+            ref problem,
+            dt,
+        } = *equation;
         let Self {
             parameters,
             state,
-            from,
-            inputs,
-            ref tau,
-            ref problem,
-            dt,
-        } = *self;
-        let mut next = State {
-            q: state.q + solution.v * dt,
+            configuration,
+            ..
+        } = self;
+        let (before, Configuration { place: from, body }) = (*state, *configuration);
+        *state = State {
+            q: before.q + solution.v * dt,
             dq: solution.v.map(floored),
-            tau: *tau,
-            ..*state
+            tau,
+            ..before
         };
-        for (q, stops) in next.q.iter_mut().zip(&parameters.stops) {
+        for (q, stops) in state.q.iter_mut().zip(&parameters.stops) {
             *q = q.max(stops.min).min(stops.max); // not beyond a stop, not by rounding either
         }
-        let configuration =
-            (!identical(&next.q, &state.q)).then(|| Configuration::of(parameters, &next));
-        let to = configuration.as_ref().unwrap_or(from);
+        if !identical(&state.q, &before.q) {
+            *configuration = Configuration::of(parameters, state);
+        }
+        let to = &configuration.place;
         for (k, surface) in parameters.surfaces().iter().enumerate() {
-            let penetration = surface.penetration(FACINGS[k], to.place.pad.p[FACINGS[k].axis()]);
-            next.s[k] = penetration.max(surface.wall().relaxed(state.s[k], dt));
+            let penetration = surface.penetration(FACINGS[k], to.pad.p[FACINGS[k].axis()]);
+            state.s[k] = penetration.max(surface.wall().relaxed(before.s[k], dt));
         }
 
         let friction = Vector3::from_fn(|i, _| problem.joints[i].friction(solution.joint[i]));
         let flow = Taken {
             parameters,
-            body: &from.body,
+            body: &body,
             solution,
             friction: &friction,
-            before: (state, &from.place),
-            after: (&next, &to.place),
+            before: (&before, &from),
+            after: (state, to),
             dt,
         }
         .flow(inputs);
-        let mut shown = Shown {
+        self.shown = Shown {
             f_e: problem.on_pad(&solution.normal, &solution.tangent) / dt,
-            tau_f: friction / dt - next.dq.component_mul(&parameters.viscous()),
+            tau_f: friction / dt - state.dq.component_mul(&parameters.viscous()),
             tension: 0.0,
             contact: solution.normal[0] > 0.0 || solution.normal[1] > 0.0,
             path: solution.path,
         };
         if state.attached {
-            let a = (to.place.pad.J * next.dq - from.place.pad.J * state.dq) / dt;
+            let a = (to.pad.J * state.dq - from.pad.J * before.dq) / dt;
             let (m, gravity) = (parameters.payload_m, &parameters.masses.gravity);
-            shown.tension = payload::tension(m, &a, gravity, &shown.f_e);
+            self.shown.tension = payload::tension(m, &a, gravity, &self.shown.f_e);
         }
-        Arrived {
-            state: next,
-            configuration,
-            shown,
+        Moved {
             flow,
             pressure: solution.normal[0] / dt,
         }

@@ -8,7 +8,7 @@ use super::energy::{self, Balance};
 use crate::ParameterError;
 use crate::arm::drive::Drive;
 use crate::arm::payload::Event;
-use crate::arm::substep::Arrived;
+use crate::arm::substep::Moved;
 use crate::arm::{self, Arm, Inputs, Start, solver};
 
 /// What the two arms are made of.
@@ -80,36 +80,44 @@ impl Pair {
     fn substep(&mut self, drive: &Drive, inputs: &[Inputs; 2], dt: f64) {
         let attached = self.attached();
         let g = self.g();
-        let posed = [0, 1].map(|i| self.arms[i].posed(drive, &inputs[i], dt));
-        let mut guesses = [self.arms[0].guess, self.arms[1].guess];
+        let [left, right] = &mut self.arms;
+        let of_left = left.equation(drive, &inputs[0], dt);
+        let of_right = right.equation(drive, &inputs[1], dt);
+        let mut guesses = [left.guess, right.guess];
         let coupled = if attached {
             Coupling {
                 push: g * (-dt * self.bond.k),
                 kappa_dt: self.bond.impedance(dt) * dt,
             }
             .solve(
-                [&posed[0].problem, &posed[1].problem],
+                [&of_left.problem, &of_right.problem],
                 &mut guesses,
                 &self.impulse,
             )
         } else {
             Coupled {
                 impulse: Vector3::zeros(),
-                solutions: [0, 1].map(|i| solver::solve(&posed[i].problem, &mut guesses[i])),
+                solutions: [
+                    solver::solve(&of_left.problem, &mut guesses[0]),
+                    solver::solve(&of_right.problem, &mut guesses[1]),
+                ],
                 rounds: 0,
             }
         };
-        let mut arrived = [0, 1].map(|i| posed[i].take(&coupled.solutions[i]));
+        (left.guess, right.guess) = (guesses[0], guesses[1]);
+        let moved = [
+            left.take(&of_left, &coupled.solutions[0]),
+            right.take(&of_right, &coupled.solutions[1]),
+        ];
         let lambda = coupled.impulse / dt;
         if attached {
-            for (arrived, sign) in arrived.iter_mut().zip(SIGNS) {
-                arrived.shown.tension -= sign * lambda.z;
+            for (arm, sign) in self.arms.iter_mut().zip(SIGNS) {
+                arm.shown.tension -= sign * lambda.z;
             }
         }
-        let event = self.event(inputs, &arrived);
-        for ((arm, arrived), guess) in self.arms.iter_mut().zip(&arrived).zip(guesses) {
-            arm.guess = guess;
-            arm.arrive(arrived, event);
+        let event = self.event(inputs, &moved);
+        for (arm, moved) in self.arms.iter_mut().zip(moved) {
+            arm.finish(moved.flow, event);
         }
         if attached {
             let after = self.offset_now() - self.offset;
@@ -126,13 +134,13 @@ impl Pair {
     }
 
     /// What happens to the payload: gripped by both cups or by none, held by both or by none.
-    fn event(&self, inputs: &[Inputs; 2], arrived: &[Arrived; 2]) -> Event {
-        let [left, right] = arrived;
-        self.arms[0].parameters().vacuum.event(
+    fn event(&self, inputs: &[Inputs; 2], moved: &[Moved; 2]) -> Event {
+        let [left, right] = &self.arms;
+        left.parameters().vacuum.event(
             self.attached(),
             inputs[0].vacuum && inputs[1].vacuum,
-            left.shown.tension.max(right.shown.tension),
-            left.pressure.min(right.pressure),
+            left.tension().max(right.tension()),
+            moved[0].pressure.min(moved[1].pressure),
         )
     }
 
