@@ -81,9 +81,8 @@ impl Coupling {
         let rounding = problems[0].rounding() + problems[1].rounding();
         let mut now = self.tried(problems, *guesses, *last);
         let mut rounds = 0;
+        let mut slope = self.slope(problems, &now.guesses);
         while rounds < ROUNDS {
-            let W = mobility(problems[0], &now.guesses[0]) + mobility(problems[1], &now.guesses[1]);
-            let slope = Matrix3::identity() + W * self.kappa_dt;
             if now.F.amax() <= ROUNDINGS * rounding * slope.amax() {
                 break;
             }
@@ -91,16 +90,19 @@ impl Coupling {
             let delta = slope.try_inverse().unwrap_or_else(Matrix3::identity) * -now.F;
             let begin = now.F.dot(&delta);
             let mut share = 1.0;
-            loop {
+            let next = loop {
                 rounds += 1;
                 let next = self.tried(problems, now.guesses, now.impulse + delta * share);
                 let end = next.F.dot(&delta);
                 if end <= -OVERSHOOT * begin || rounds >= ROUNDS {
-                    now = next;
-                    break;
+                    break next;
                 }
                 share *= begin / (begin - end);
+            };
+            if next.guesses != now.guesses {
+                slope = self.slope(problems, &next.guesses); // of another piece
             }
+            now = next;
         }
         *guesses = now.guesses;
         Coupled {
@@ -108,6 +110,12 @@ impl Coupling {
             solutions: now.solutions,
             rounds,
         }
+    }
+
+    /// ∂F/∂Λ on the piece on which `guesses` hold.
+    fn slope(&self, problems: [&Problem; 2], guesses: &[Guess; 2]) -> Matrix3<f64> {
+        let W = mobility(problems[0], &guesses[0]) + mobility(problems[1], &guesses[1]);
+        Matrix3::identity() + W * self.kappa_dt
     }
 
     fn tried(
