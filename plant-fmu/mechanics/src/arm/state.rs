@@ -95,4 +95,11 @@ impl Configuration {
             body: parameters.body(&pose, state.attached),
         }
     }
+
+    /// Follows the arm to `state`: as [`Configuration::of`], without a copy of the whole.
+    pub(crate) fn follow(&mut self, parameters: &Parameters, state: &State) {
+        let pose = Pose::at(&state.q);
+        self.place = Place::of(parameters, pose);
+        self.body = parameters.body(&pose, state.attached);
+    }
 }

@@ -137,7 +137,7 @@ impl Arm {
             *q = q.max(stops.min).min(stops.max); // not beyond a stop, not by rounding either
         }
         if !identical(&state.q, &before.q) {
-            *configuration = Configuration::of(parameters, state);
+            configuration.follow(parameters, state);
         }
         let to = &configuration.place;
         for (k, surface) in parameters.surfaces().iter().enumerate() {
