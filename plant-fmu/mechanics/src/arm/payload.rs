@@ -75,13 +75,15 @@ pub fn gripped(without: &RigidBody, with: &RigidBody, v: &Vector3<f64>) -> Vecto
 }
 
 impl Arm {
-    /// The payload is gripped, released or lost; the substep is booked.
+    /// The payload is gripped, released or lost; what the substep moved, `flow` and the payload's share, is booked and
+    /// returned.
     #[inline]
-    pub(crate) fn finish(&mut self, mut flow: Flow, event: Event) {
+    pub(crate) fn finish(&mut self, mut flow: Flow, event: Event) -> Flow {
         if event != Event::Stays && self.parameters.payload_m > 0.0 {
             self.exchange(&mut flow, event);
         }
         self.ledger.book(&flow);
+        flow
     }
 
     fn exchange(&mut self, flow: &mut Flow, event: Event) {

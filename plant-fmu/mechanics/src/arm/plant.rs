@@ -4,6 +4,7 @@ use nalgebra::Vector3;
 
 use super::drive::Drive;
 use super::energy::{Energy, Ledger, Stored};
+use super::flow::Flow;
 use super::guess::Guess;
 use super::parameters::{Parameters, Start};
 use super::rigid_body::RigidBody;
@@ -50,6 +51,11 @@ impl Arm {
             s: [0.0; 2],
             attached: start.attached && parameters.payload_m > 0.0,
         };
+        Self::of(parameters, state)
+    }
+
+    /// The arm in `state`, where its energy balance begins; nothing is checked.
+    pub fn of(parameters: Parameters, state: State) -> Self {
         let configuration = Configuration::of(&parameters, &state);
         Self {
             parameters,
@@ -65,17 +71,23 @@ impl Arm {
     pub fn advance(&mut self, inputs: &Inputs, n: u32, dt: f64) {
         let drive = Drive::new(self.parameters.drive_cutoff, dt);
         for _ in 0..n {
-            let equation = self.equation(&drive, inputs, dt);
-            let solution = solver::solve(&equation.problem, &mut self.guess);
-            let moved = self.take(&equation, &solution);
-            let event = self.parameters.vacuum.event(
-                self.state.attached,
-                inputs.vacuum,
-                self.shown.tension,
-                moved.pressure,
-            );
-            self.finish(moved.flow, event);
+            self.substep(&drive, inputs, dt);
         }
+    }
+
+    /// One substep of `dt` (s), for which `drive` is made. Returns the energy that it moved.
+    #[inline]
+    pub fn substep(&mut self, drive: &Drive, inputs: &Inputs, dt: f64) -> Flow {
+        let equation = self.equation(drive, inputs, dt);
+        let solution = solver::solve(&equation.problem, &mut self.guess);
+        let moved = self.take(&equation, &solution);
+        let event = self.parameters.vacuum.event(
+            self.state.attached,
+            inputs.vacuum,
+            self.shown.tension,
+            moved.pressure,
+        );
+        self.finish(moved.flow, event)
     }
 
     /// What the arm is made of.
@@ -169,20 +181,12 @@ struct Saved {
 #[cfg(feature = "serde")]
 impl From<Arm> for Saved {
     fn from(arm: Arm) -> Self {
-        let Arm {
-            parameters,
-            state,
-            configuration: _,
-            guess,
-            shown,
-            ledger,
-        } = arm;
         Self {
-            parameters,
-            state,
-            guess,
-            shown,
-            ledger,
+            parameters: arm.parameters,
+            state: arm.state,
+            guess: arm.guess,
+            shown: arm.shown,
+            ledger: arm.ledger,
         }
     }
 }
@@ -190,21 +194,11 @@ impl From<Arm> for Saved {
 #[cfg(feature = "serde")]
 impl From<Saved> for Arm {
     fn from(saved: Saved) -> Self {
-        let Saved {
-            parameters,
-            state,
-            guess,
-            shown,
-            ledger,
-        } = saved;
-        let configuration = Configuration::of(&parameters, &state);
         Self {
-            parameters,
-            state,
-            configuration,
-            guess,
-            shown,
-            ledger,
+            guess: saved.guess,
+            shown: saved.shown,
+            ledger: saved.ledger,
+            ..Self::of(saved.parameters, saved.state)
         }
     }
 }
