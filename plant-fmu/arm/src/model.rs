@@ -3,7 +3,7 @@
 use crate::{ExoskeletonArm, RigidBody};
 use export::access::check_parameters;
 use export::{Log, Model, Refusal, Step};
-use mechanics::arm::{Arm, Inputs, rigid_body};
+use mechanics::arm::{Arm, Inputs};
 use nalgebra::{Matrix3, Vector3};
 
 impl Model for ExoskeletonArm {
@@ -66,8 +66,8 @@ impl Model for ExoskeletonArm {
 impl ExoskeletonArm {
     /// The force sensor takes sample `k`, of the force that is held and in the pose of the plant.
     fn sample(&mut self, k: u64, start_time: f64) {
-        let (f_h, pose) = (Vector3::from(self.f_h), self.plant.place().pose);
-        self.reading = self.ft.sample(k, start_time, &f_h, &pose, self.reading);
+        let (f_h, pose) = (Vector3::from(self.f_h), &self.plant.place().pose);
+        self.reading = self.ft.sample(k, start_time, &f_h, pose, self.reading);
     }
 
     /// Outputs from the plant's state and the sensors.
@@ -88,18 +88,7 @@ impl ExoskeletonArm {
         self.contact = plant.contact();
         self.tension = plant.tension();
         self.energy = plant.energy();
-        let payload = if plant.attached() {
-            self.parameters.payload_m
-        } else {
-            0.0
-        };
-        let parameters = plant.parameters();
-        let body = rigid_body::RigidBody::at(
-            &place.pose,
-            &parameters.lengths,
-            &parameters.masses,
-            payload,
-        );
+        let body = plant.body();
         self.rigid_body = RigidBody {
             M: rows(&body.M),
             C_dq: (body.C(&dq) * dq).into(),

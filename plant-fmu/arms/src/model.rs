@@ -3,8 +3,8 @@
 use crate::{ExoskeletonArms, Side};
 use export::access::check_parameters;
 use export::{Log, Model, Refusal, Step};
-use mechanics::arm::Inputs;
-use mechanics::pair::{Half, Pair, Parameters};
+use mechanics::arm::{Arm, Inputs};
+use mechanics::pair::{Pair, Parameters};
 use nalgebra::Vector3;
 
 impl Model for ExoskeletonArms {
@@ -84,7 +84,7 @@ impl Side {
     }
 
     /// Outputs of the arm whose shoulder is at `y` (m).
-    fn show(&mut self, arm: &Half, y: f64) {
+    fn show(&mut self, arm: &Arm, y: f64) {
         let (place, state, shown) = (arm.place(), arm.state(), arm.shown());
         let base = Vector3::new(0.0, y, 0.0);
         self.q = state.q.into();

@@ -80,6 +80,7 @@ impl Ledger {
     }
 
     /// Books one substep.
+    #[inline(always)]
     pub(crate) fn book(&mut self, flow: &Flow) {
         self.work_tau_a = self.work_tau_a.plus(flow.work_tau_a);
         self.work_tau_h = self.work_tau_h.plus(flow.work_tau_h);

@@ -147,11 +147,16 @@ impl Testbed {
     /// Runs `n` substeps of `dt` (s) with `forces` held.
     pub fn advance(&mut self, forces: &Forces, n: u32, dt: f64) {
         for _ in 0..n {
-            let done = substep(&self.parameters, &self.state, forces, dt);
-            self.state = done.state;
-            self.ledger.book(&done.flow);
-            (self.tau_f, self.tau_e) = (done.tau_f, done.tau_e);
+            self.substep(forces, dt);
         }
+    }
+
+    #[inline]
+    fn substep(&mut self, forces: &Forces, dt: f64) {
+        let done = substep(&self.parameters, &self.state, forces, dt);
+        self.state = done.state;
+        self.ledger.book(&done.flow);
+        (self.tau_f, self.tau_e) = (done.tau_f, done.tau_e);
     }
 
     /// Runs `n` substeps of `dt` (s) with `drive` as the actuator in place of `forces.tau_a`: the drive's cycle is the
@@ -167,7 +172,7 @@ impl Testbed {
         let mut mean = 0.0;
         for _ in 0..n {
             let tau_a = drive.force(command, self.q(), self.dq());
-            self.advance(&Forces { tau_a, ..*forces }, 1, dt);
+            self.substep(&Forces { tau_a, ..*forces }, dt);
             mean += tau_a / f64::from(n);
         }
         mean

@@ -41,7 +41,7 @@ fn runge_kutta(parameters: &Parameters, start: &Start, inputs: &Inputs, t: f64) 
             q: (*q).into(),
             ..*start
         };
-        let place = Arm::new(*parameters, &still).unwrap().place();
+        let place = *Arm::new(*parameters, &still).unwrap().place();
         let body = mechanics::arm::rigid_body::RigidBody::at(
             &place.pose,
             &parameters.lengths,
@@ -151,7 +151,7 @@ fn yaw_runs_up_by_the_closed_form() {
 fn stiction_holds_for_20_s_at_nine_tenths_and_lets_go_beyond() {
     let parameters = Parameters::default();
     let start = Start::default();
-    let place = Arm::default().place();
+    let place = *Arm::default().place();
     let g = mechanics::arm::rigid_body::RigidBody::at(
         &place.pose,
         &parameters.lengths,

@@ -2,7 +2,8 @@
 
 use super::flow::Flow;
 use super::parameters::Parameters;
-use super::state::{Place, State};
+use super::rigid_body::RigidBody;
+use super::state::State;
 use crate::Sum;
 
 /// Energy balance since the start (J).
@@ -53,9 +54,8 @@ pub(crate) struct Stored {
 }
 
 impl Stored {
-    /// In an arm in `state`, at `place`.
-    pub(crate) fn of(parameters: &Parameters, state: &State, place: &Place) -> Self {
-        let body = parameters.body(&place.pose, state.attached);
+    /// In an arm in `state`, where its rigid body is `body`.
+    pub(crate) fn of(parameters: &Parameters, state: &State, body: &RigidBody) -> Self {
         let surfaces = parameters.surfaces();
         Self {
             kinetic: body.kinetic(&state.dq),

@@ -49,6 +49,11 @@ impl Motion {
 }
 
 impl Guess {
+    /// Does a surface push?
+    pub(crate) fn touches(&self) -> bool {
+        self.pushes[0] || self.pushes[1]
+    }
+
     /// Does a surface that pushes rub along this axis of the pad?
     pub(crate) fn rubs(&self, axis: usize) -> bool {
         (self.pushes[0] && FACINGS[0].axis() != axis)
@@ -58,25 +63,51 @@ impl Guess {
     /// Takes the guess for granted and solves what remains: sliding forces are at their limits, held joints and axes
     /// have a velocity instead of an equation, surfaces that push are springs.
     pub fn solve(&self, problem: &Problem) -> Solution {
-        let Problem {
-            A, b, joints, J, ..
-        } = problem;
-        let (mut K, mut r) = (*A, *b);
+        Linear::of(self, problem).solve(&problem.b)
+    }
+}
+
+/// The linear equation that a guess leaves of a problem: K v = r in the joints that slide. All of it but `b` of the problem,
+/// so that it is put together and inverted once for several b.
+pub(crate) struct Linear<'a> {
+    guess: &'a Guess,
+    problem: &'a Problem,
+    K: Matrix3<f64>,
+    /// Impulses of the surfaces on the joints if the pad did not move (N·m·s); where they push.
+    pushes: [Vector3<f64>; 2],
+    held: [bool; 3],
+    /// Velocities of the joints that are held (rad/s).
+    at: Vector3<f64>,
+    /// Friction of the joints that slide (N·m·s).
+    slide: Vector3<f64>,
+    /// Of K without the joints that are held.
+    inverse: Matrix3<f64>,
+    /// Axes of the pad that are held.
+    axes: [bool; 3],
+    /// Jacobian of the pad in the joints that slide.
+    J_free: Matrix3<f64>,
+}
+
+impl<'a> Linear<'a> {
+    #[inline(always)]
+    pub(crate) fn of(guess: &'a Guess, problem: &'a Problem) -> Self {
+        let Problem { A, joints, J, .. } = problem;
+        let mut K = *A;
 
         // n = push − κ dt d·v acts along u: the normal, and the friction of the axes that slide with it.
-        let touching = self.pushes[0] || self.pushes[1];
+        let mut pushes = [Vector3::zeros(); 2];
         for (k, facing) in FACINGS.iter().enumerate() {
-            if self.pushes[k] {
+            if guess.pushes[k] {
                 let contact = &problem.contacts[k];
                 let mut u = Vector3::zeros();
                 for axis in 0..3 {
-                    u[axis] = -self.pad[axis].sense() * contact.mu;
+                    u[axis] = -guess.pad[axis].sense() * contact.mu;
                 }
                 u[facing.axis()] = facing.sign();
                 let u = J.tr_mul(&u);
                 let d = J.row(facing.axis()) * (facing.sign() * contact.kappa_dt);
                 K += u * d;
-                r += u * contact.push;
+                pushes[k] = u * contact.push;
             }
         }
 
@@ -84,17 +115,17 @@ impl Guess {
         let mut at = Vector3::zeros();
         let mut slide = Vector3::zeros();
         for i in 0..3 {
-            match self.joint[i] {
+            match guess.joint[i] {
                 Motion::Held => {}
                 Motion::High => at[i] = joints[i].high,
                 Motion::Low => at[i] = joints[i].low,
                 Motion::Forward | Motion::Backward => {
                     held[i] = false;
-                    slide[i] = -self.joint[i].sense() * joints[i].limit;
+                    slide[i] = -guess.joint[i].sense() * joints[i].limit;
                 }
             }
         }
-        let (mut K_free, mut r_free, mut J_free) = (K, r + slide - K * at, *J);
+        let (mut K_free, mut J_free) = (K, *J);
         for i in 0..3 {
             if held[i] {
                 for other in 0..3 {
@@ -103,33 +134,53 @@ impl Guess {
                     J_free[(other, i)] = 0.0;
                 }
                 K_free[(i, i)] = 1.0;
-                r_free[i] = at[i];
             }
         }
-        // Singular only for parameters at which Coulomb friction itself has no solution: then the check fails.
-        let inverse = K_free.try_inverse().unwrap_or_else(Matrix3::zeros);
-        let mut v = inverse * r_free;
+        Self {
+            guess,
+            problem,
+            K,
+            pushes,
+            held,
+            at,
+            slide,
+            // Singular only for parameters at which Coulomb friction itself has no solution: then the check fails.
+            inverse: K_free.try_inverse().unwrap_or_else(Matrix3::zeros),
+            axes: [0, 1, 2].map(|axis| guess.pad[axis] == Motion::Held && guess.rubs(axis)),
+            J_free,
+        }
+    }
+
+    /// The solution for `b` (N·m·s).
+    #[inline(always)]
+    pub(crate) fn solve(&self, b: &Vector3<f64>) -> Solution {
+        let Self {
+            guess,
+            problem,
+            K,
+            held,
+            slide,
+            ..
+        } = self;
+        let r = self.r(b);
+        let (v, held_by) = self.velocity(&r);
 
         let mut normal = [0.0; 2];
-        let mut tangent = Vector3::zeros();
+        let mut tangent = held_by;
         let mut back = Vector3::zeros();
-        if touching {
-            let axes = [0, 1, 2].map(|axis| self.pad[axis] == Motion::Held && self.rubs(axis));
-            if axes.contains(&true) {
-                let spread = inverse * J_free.transpose();
-                tangent = hold(J_free * spread, -(J * v), axes);
-                v += spread * tangent;
-                back = J.tr_mul(&tangent);
+        if guess.touches() {
+            if self.axes.contains(&true) {
+                back = problem.J.tr_mul(&held_by);
             }
-            let w = J * v;
+            let w = problem.J * v;
             for (k, facing) in FACINGS.iter().enumerate() {
-                if self.pushes[k] {
+                if guess.pushes[k] {
                     normal[k] = problem.contacts[k].pressure(*facing, &w);
                 }
             }
             let grip = problem.grip(&normal);
             for axis in 0..3 {
-                tangent[axis] -= self.pad[axis].sense() * grip[axis];
+                tangent[axis] -= guess.pad[axis].sense() * grip[axis];
             }
         }
         let needed = K * v - r - back;
@@ -141,6 +192,42 @@ impl Guess {
             tangent,
             path: Path::Guessed,
         }
+    }
+
+    /// Velocity of the pad (m/s) for `b` (N·m·s).
+    pub(crate) fn w(&self, b: &Vector3<f64>) -> Vector3<f64> {
+        self.problem.J * self.velocity(&self.r(b)).0
+    }
+
+    /// `b` with the impulses of the surfaces (N·m·s).
+    #[inline(always)]
+    fn r(&self, b: &Vector3<f64>) -> Vector3<f64> {
+        let mut r = *b;
+        for (pushes, impulse) in self.guess.pushes.iter().zip(&self.pushes) {
+            if *pushes {
+                r += impulse;
+            }
+        }
+        r
+    }
+
+    /// Velocity of the joints (rad/s), and the impulse of the axes that are held on the pad (N·s).
+    #[inline(always)]
+    fn velocity(&self, r: &Vector3<f64>) -> (Vector3<f64>, Vector3<f64>) {
+        let mut r_free = r + self.slide - self.K * self.at;
+        for i in 0..3 {
+            if self.held[i] {
+                r_free[i] = self.at[i];
+            }
+        }
+        let mut v = self.inverse * r_free;
+        let mut tangent = Vector3::zeros();
+        if self.axes.contains(&true) {
+            let spread = self.inverse * self.J_free.transpose();
+            tangent = hold(self.J_free * spread, -(self.problem.J * v), self.axes);
+            v += spread * tangent;
+        }
+        (v, tangent)
     }
 }
 

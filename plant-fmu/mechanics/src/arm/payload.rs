@@ -5,7 +5,10 @@
 
 use nalgebra::Vector3;
 
+use super::flow::Flow;
+use super::plant::Arm;
 use super::rigid_body::RigidBody;
+use super::state::Configuration;
 
 /// The vacuum cup.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -69,4 +72,40 @@ pub fn gripped(without: &RigidBody, with: &RigidBody, v: &Vector3<f64>) -> Vecto
     with.M
         .try_inverse()
         .map_or(*v, |inverse| inverse * (without.M * v))
+}
+
+impl Arm {
+    /// The payload is gripped, released or lost; what the substep moved, `flow` and the payload's share, is booked and
+    /// returned.
+    #[inline]
+    pub(crate) fn finish(&mut self, mut flow: Flow, event: Event) -> Flow {
+        if event != Event::Stays && self.parameters.payload_m > 0.0 {
+            self.exchange(&mut flow, event);
+        }
+        self.ledger.book(&flow);
+        flow
+    }
+
+    fn exchange(&mut self, flow: &mut Flow, event: Event) {
+        let Self {
+            parameters,
+            state,
+            configuration: Configuration { place, body },
+            ..
+        } = self;
+        let m = parameters.payload_m;
+        let potential = -m * Vector3::from(parameters.masses.gravity).dot(&place.pad.p);
+        state.attached = event == Event::Attaches;
+        let exchanged = parameters.body(&place.pose, state.attached);
+        if state.attached {
+            let v = gripped(body, &exchanged, &state.dq);
+            flow.payload = potential;
+            flow.loss_grip =
+                body.kinetic(&(state.dq - v)) + 0.5 * m * (place.pad.J * v).norm_squared();
+            state.dq = v;
+        } else {
+            flow.payload = -(potential + 0.5 * m * (place.pad.J * state.dq).norm_squared());
+        }
+        *body = exchanged;
+    }
 }

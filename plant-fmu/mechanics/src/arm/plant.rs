@@ -4,21 +4,26 @@ use nalgebra::Vector3;
 
 use super::drive::Drive;
 use super::energy::{Energy, Ledger, Stored};
+use super::flow::Flow;
 use super::guess::Guess;
 use super::parameters::{Parameters, Start};
-use super::state::{Inputs, Place, Shown, State};
-use super::substep::substep;
+use super::rigid_body::RigidBody;
+use super::solver;
+use super::state::{Configuration, Inputs, Place, Shown, State};
 use crate::ParameterError;
 
 /// The 3-DoF geared exoskeleton arm with its payload, table and wall.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(from = "Saved", into = "Saved"))]
 pub struct Arm {
-    parameters: Parameters,
-    state: State,
-    guess: Guess,
-    shown: Shown,
-    ledger: Ledger,
+    pub(super) parameters: Parameters,
+    pub(super) state: State,
+    /// Follows from `parameters` and `state`.
+    pub(super) configuration: Configuration,
+    pub(crate) guess: Guess,
+    pub(crate) shown: Shown,
+    pub(super) ledger: Ledger,
 }
 
 impl Default for Arm {
@@ -38,41 +43,51 @@ impl Arm {
         Ok(Self::start(parameters, start))
     }
 
-    fn start(parameters: Parameters, start: &Start) -> Self {
-        let mut arm = Self {
+    pub(crate) fn start(parameters: Parameters, start: &Start) -> Self {
+        let state = State {
+            q: Vector3::from(start.q),
+            dq: Vector3::from(start.dq),
+            tau: Vector3::zeros(),
+            s: [0.0; 2],
+            attached: start.attached && parameters.payload_m > 0.0,
+        };
+        Self::of(parameters, state)
+    }
+
+    /// The arm in `state`, where its energy balance begins; nothing is checked.
+    pub fn of(parameters: Parameters, state: State) -> Self {
+        let configuration = Configuration::of(&parameters, &state);
+        Self {
             parameters,
-            state: State {
-                q: Vector3::from(start.q),
-                dq: Vector3::from(start.dq),
-                tau: Vector3::zeros(),
-                s: [0.0; 2],
-                attached: start.attached && parameters.payload_m > 0.0,
-            },
+            state,
+            configuration,
             guess: Guess::default(),
             shown: Shown::default(),
-            ledger: Ledger::default(),
-        };
-        arm.ledger = Ledger::open(&arm.stored());
-        arm
+            ledger: Ledger::open(&Stored::of(&parameters, &state, &configuration.body)),
+        }
     }
 
     /// Runs `n` substeps of `dt` (s) with `inputs` held.
     pub fn advance(&mut self, inputs: &Inputs, n: u32, dt: f64) {
         let drive = Drive::new(self.parameters.drive_cutoff, dt);
-        let mut place = self.place();
         for _ in 0..n {
-            let (shown, flow) = substep(
-                &self.parameters,
-                &drive,
-                &mut self.state,
-                &mut place,
-                &mut self.guess,
-                inputs,
-                dt,
-            );
-            self.shown = shown;
-            self.ledger.book(&flow);
+            self.substep(&drive, inputs, dt);
         }
+    }
+
+    /// One substep of `dt` (s), for which `drive` is made. Returns the energy that it moved.
+    #[inline]
+    pub fn substep(&mut self, drive: &Drive, inputs: &Inputs, dt: f64) -> Flow {
+        let equation = self.equation(drive, inputs, dt);
+        let solution = solver::solve(&equation.problem, &mut self.guess);
+        let moved = self.take(&equation, &solution);
+        let event = self.parameters.vacuum.event(
+            self.state.attached,
+            inputs.vacuum,
+            self.shown.tension,
+            moved.pressure,
+        );
+        self.finish(moved.flow, event)
     }
 
     /// What the arm is made of.
@@ -96,8 +111,13 @@ impl Arm {
     }
 
     /// Pose, handle and pad with their Jacobians.
-    pub fn place(&self) -> Place {
-        Place::at(&self.parameters, &self.state.q)
+    pub fn place(&self) -> &Place {
+        &self.configuration.place
+    }
+
+    /// Mass matrix, Coriolis terms and gravity, with the payload if it is attached.
+    pub fn body(&self) -> &RigidBody {
+        &self.configuration.body
     }
 
     /// Position of the handle, base frame (m).
@@ -142,10 +162,43 @@ impl Arm {
 
     /// Energy balance since the start.
     pub fn energy(&self) -> Energy {
-        self.ledger.balance(&self.stored())
+        self.ledger
+            .balance(&Stored::of(&self.parameters, &self.state, self.body()))
     }
+}
 
-    fn stored(&self) -> Stored {
-        Stored::of(&self.parameters, &self.state, &self.place())
+/// An arm as it is saved: without what follows from the rest.
+#[cfg(feature = "serde")]
+#[derive(serde::Serialize, serde::Deserialize)]
+struct Saved {
+    parameters: Parameters,
+    state: State,
+    guess: Guess,
+    shown: Shown,
+    ledger: Ledger,
+}
+
+#[cfg(feature = "serde")]
+impl From<Arm> for Saved {
+    fn from(arm: Arm) -> Self {
+        Self {
+            parameters: arm.parameters,
+            state: arm.state,
+            guess: arm.guess,
+            shown: arm.shown,
+            ledger: arm.ledger,
+        }
+    }
+}
+
+#[cfg(feature = "serde")]
+impl From<Saved> for Arm {
+    fn from(saved: Saved) -> Self {
+        Self {
+            guess: saved.guess,
+            shown: saved.shown,
+            ledger: saved.ledger,
+            ..Self::of(saved.parameters, saved.state)
+        }
     }
 }

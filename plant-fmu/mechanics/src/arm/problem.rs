@@ -128,21 +128,22 @@ impl Contact {
 }
 
 impl Joint {
-    /// The impulse of a joint that friction and stops keep at rest: −limit ..= limit, and beyond where a stop is
-    /// touched.
-    pub(crate) fn holds(&self) -> (f64, f64) {
-        (
-            if self.high > 0.0 {
-                -self.limit
-            } else {
-                f64::NEG_INFINITY
-            },
-            if self.low < 0.0 {
-                self.limit
-            } else {
-                f64::INFINITY
-            },
-        )
+    /// Least impulse of a joint that friction and stops keep at rest: −limit, or any where it leans on the upper stop.
+    pub(crate) fn least(&self) -> f64 {
+        if self.high > 0.0 {
+            -self.limit
+        } else {
+            f64::NEG_INFINITY
+        }
+    }
+
+    /// Largest impulse of a joint that friction and stops keep at rest: limit, or any where it leans on the lower stop.
+    pub(crate) fn most(&self) -> f64 {
+        if self.low < 0.0 {
+            self.limit
+        } else {
+            f64::INFINITY
+        }
     }
 
     /// The share of friction in the impulse `joint` (N·m·s); the rest is the stop's.

@@ -10,21 +10,22 @@ pub(crate) struct Check<'a> {
     impulse: f64,
     /// Velocity of each joint (rad/s).
     v: [f64; 3],
-    /// Velocity of the pad (m/s).
-    w: f64,
 }
 
 impl<'a> Check<'a> {
     pub(crate) fn of(problem: &'a Problem) -> Self {
         let impulse = problem.rounding();
         let v = [0, 1, 2].map(|i| impulse / problem.A[(i, i)]);
-        let w = problem.J.amax() * (v[0] + v[1] + v[2]);
         Self {
             problem,
             impulse,
             v,
-            w,
         }
+    }
+
+    /// Velocity of the pad (m/s).
+    fn w(&self) -> f64 {
+        self.problem.J.amax() * (self.v[0] + self.v[1] + self.v[2])
     }
 
     /// Revises `guess` where `solution`, found from it, contradicts it: everywhere, or where it does first. Returns
@@ -42,7 +43,7 @@ impl<'a> Check<'a> {
                 guess.pushes[k] = true;
                 for axis in 0..3 {
                     if !rubbed[axis] && guess.rubs(axis) {
-                        guess.pad[axis] = sliding(w[axis], self.w);
+                        guess.pad[axis] = sliding(w[axis], self.w());
                     }
                 }
                 revised = true;
@@ -51,14 +52,17 @@ impl<'a> Check<'a> {
                 return true;
             }
         }
-        let grip = self.problem.grip(&solution.normal);
-        for axis in 0..3 {
-            if guess.rubs(axis) {
-                let next = self.pad(guess.pad[axis], w[axis], solution.tangent[axis], grip[axis]);
-                revised |= next != guess.pad[axis];
-                guess.pad[axis] = next;
-                if singly && revised {
-                    return true;
+        if guess.touches() {
+            let (grip, rounding) = (self.problem.grip(&solution.normal), self.w());
+            for axis in 0..3 {
+                if guess.rubs(axis) {
+                    let (motion, t) = (guess.pad[axis], solution.tangent[axis]);
+                    let next = self.pad(motion, w[axis], rounding, t, grip[axis]);
+                    revised |= next != motion;
+                    guess.pad[axis] = next;
+                    if singly && revised {
+                        return true;
+                    }
                 }
             }
         }
@@ -73,15 +77,16 @@ impl<'a> Check<'a> {
         revised
     }
 
-    /// The motion along an axis of the pad that follows from its velocity `w` and friction `t` under `grip`.
-    fn pad(&self, motion: Motion, w: f64, t: f64, grip: f64) -> Motion {
+    /// The motion along an axis of the pad that follows from its velocity `w`, which errs by `rounding`, and friction `t`
+    /// under `grip`.
+    fn pad(&self, motion: Motion, w: f64, rounding: f64, t: f64, grip: f64) -> Motion {
         match motion {
-            Motion::Forward if w < -self.w => Motion::Held,
-            Motion::Backward if w > self.w => Motion::Held,
+            Motion::Forward if w < -rounding => Motion::Held,
+            Motion::Backward if w > rounding => Motion::Held,
             Motion::Forward | Motion::Backward => motion,
             // Friction at its limit slides against its force; an axis that no force could hold slides as it moves.
             _ if t.abs() > grip.max(0.0) + self.impulse => sliding(-t, 0.0),
-            _ => sliding(w, self.w),
+            _ => sliding(w, rounding),
         }
     }
 
@@ -89,14 +94,13 @@ impl<'a> Check<'a> {
     fn joint(&self, i: usize, motion: Motion, solution: &Solution) -> Motion {
         let joint = &self.problem.joints[i];
         let (v, impulse) = (solution.v[i], solution.joint[i]);
-        let (least, most) = joint.holds();
         match motion {
             Motion::Forward if v < -self.v[i] => Motion::Held,
             Motion::Forward if v > joint.high + self.v[i] => beyond(joint.high, Motion::High),
             Motion::Backward if v > self.v[i] => Motion::Held,
             Motion::Backward if v < joint.low - self.v[i] => beyond(joint.low, Motion::Low),
-            Motion::Held if impulse < least - self.impulse => Motion::Forward,
-            Motion::Held if impulse > most + self.impulse => Motion::Backward,
+            Motion::Held if impulse < joint.least() - self.impulse => Motion::Forward,
+            Motion::Held if impulse > joint.most() + self.impulse => Motion::Backward,
             Motion::High if impulse > -joint.limit + self.impulse => Motion::Forward,
             Motion::Low if impulse < joint.limit - self.impulse => Motion::Backward,
             _ => motion,
@@ -113,7 +117,7 @@ impl<'a> Check<'a> {
         let grip = self.problem.grip(&solution.normal);
         for axis in 0..3 {
             if solution.tangent[axis].abs() >= grip[axis] {
-                guess.pad[axis] = sliding(w[axis], self.w);
+                guess.pad[axis] = sliding(w[axis], self.w());
             }
         }
         for i in 0..3 {

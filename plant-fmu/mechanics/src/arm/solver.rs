@@ -41,22 +41,23 @@ pub fn solve(problem: &Problem, guess: &mut Guess) -> Solution {
 fn settled(problem: &Problem, mut solution: Solution, guess: &Guess, path: Path) -> Solution {
     for (i, joint) in problem.joints.iter().enumerate() {
         let (v, impulse) = (&mut solution.v[i], &mut solution.joint[i]);
-        let (least, most) = joint.holds();
         match guess.joint[i] {
             Motion::Forward => *v = v.max(0.0).min(joint.high),
             Motion::Backward => *v = v.min(0.0).max(joint.low),
-            Motion::Held => *impulse = impulse.max(least).min(most),
+            Motion::Held => *impulse = impulse.max(joint.least()).min(joint.most()),
             Motion::High => *impulse = impulse.min(-joint.limit),
             Motion::Low => *impulse = impulse.max(joint.limit),
         }
     }
-    for n in &mut solution.normal {
-        *n = n.max(0.0);
-    }
-    let grip = problem.grip(&solution.normal);
-    for axis in 0..3 {
-        let t = &mut solution.tangent[axis];
-        *t = t.max(-grip[axis]).min(grip[axis]);
+    if guess.touches() {
+        for n in &mut solution.normal {
+            *n = n.max(0.0);
+        }
+        let grip = problem.grip(&solution.normal);
+        for axis in 0..3 {
+            let t = &mut solution.tangent[axis];
+            *t = t.max(-grip[axis]).min(grip[axis]);
+        }
     }
     Solution { path, ..solution }
 }

@@ -5,6 +5,7 @@ use nalgebra::Vector3;
 use super::kinematics::{Point, Pose};
 use super::parameters::Parameters;
 use super::problem::Path;
+use super::rigid_body::RigidBody;
 
 /// What acts on the arm, held over a run of substeps.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -65,12 +66,40 @@ pub struct Place {
 impl Place {
     /// The arm at joint angles `q` (rad).
     pub fn at(parameters: &Parameters, q: &Vector3<f64>) -> Self {
+        Self::of(parameters, Pose::at(q))
+    }
+
+    fn of(parameters: &Parameters, pose: Pose) -> Self {
         let lengths = &parameters.lengths;
-        let pose = Pose::at(q);
         Self {
             pose,
             handle: pose.point(lengths, lengths.handle),
             pad: pose.point(lengths, lengths.pad),
         }
+    }
+}
+
+/// What follows from the joint angles and the payload: where the arm is, and the rigid body there.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Configuration {
+    pub(crate) place: Place,
+    pub(crate) body: RigidBody,
+}
+
+impl Configuration {
+    /// The arm in `state`.
+    pub(crate) fn of(parameters: &Parameters, state: &State) -> Self {
+        let pose = Pose::at(&state.q);
+        Self {
+            place: Place::of(parameters, pose),
+            body: parameters.body(&pose, state.attached),
+        }
+    }
+
+    /// Follows the arm to `state`: as [`Configuration::of`], without a copy of the whole.
+    pub(crate) fn follow(&mut self, parameters: &Parameters, state: &State) {
+        let pose = Pose::at(&state.q);
+        self.place = Place::of(parameters, pose);
+        self.body = parameters.body(&pose, state.attached);
     }
 }

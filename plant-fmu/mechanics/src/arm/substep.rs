@@ -5,14 +5,13 @@ use nalgebra::{Matrix3, Vector3};
 use super::drive::Drive;
 use super::floored;
 use super::flow::{Flow, Taken};
-use super::guess::Guess;
 use super::kinematics::Pose;
 use super::parameters::Parameters;
-use super::payload::{self, Event};
+use super::payload;
+use super::plant::Arm;
 use super::problem::{Contact, FACINGS, Joint, Problem, Solution};
 use super::rigid_body::RigidBody;
-use super::solver;
-use super::state::{Inputs, Place, Shown, State};
+use super::state::{Configuration, Inputs, Place, Shown, State};
 use super::surface::Surface;
 
 impl Parameters {
@@ -77,163 +76,106 @@ pub fn problem(
     }
 }
 
-/// A substep whose equation is put together, but not solved: from where it starts, and what acts.
-pub(crate) struct Posed<'a> {
-    pub(crate) parameters: &'a Parameters,
-    pub(crate) state: &'a State,
-    pub(crate) place: &'a Place,
-    pub(crate) inputs: &'a Inputs,
+/// A substep whose equation is put together, but not solved.
+pub(crate) struct Equation<'a> {
+    inputs: &'a Inputs,
     /// Torques at the joints (N·m).
-    pub(crate) tau: Vector3<f64>,
-    pub(crate) body: RigidBody,
+    tau: Vector3<f64>,
     pub(crate) problem: Problem,
-    pub(crate) dt: f64,
+    dt: f64,
 }
 
-/// Where a substep arrives, what it showed and what it moved; the payload is still as before.
-pub(crate) struct Arrived {
-    pub(crate) state: State,
-    pub(crate) place: Place,
-    pub(crate) shown: Shown,
+/// What a substep moved; the payload is still as before.
+pub(crate) struct Moved {
     pub(crate) flow: Flow,
     /// Force of the table along its normal (N).
     pub(crate) pressure: f64,
 }
 
-impl<'a> Posed<'a> {
+impl Arm {
+    /// The substep of `dt` (s) from here.
     #[inline]
-    pub(crate) fn at(
-        parameters: &'a Parameters,
-        drive: &Drive,
-        state: &'a State,
-        place: &'a Place,
-        inputs: &'a Inputs,
-        dt: f64,
-    ) -> Self {
-        let tau = drive.step(&state.tau, &Vector3::from(inputs.tau_a));
-        let body = parameters.body(&place.pose, state.attached);
-        let problem = problem(parameters, state, place, &body, &tau, inputs, dt);
-        Self {
+    pub(crate) fn equation<'a>(&self, drive: &Drive, inputs: &'a Inputs, dt: f64) -> Equation<'a> {
+        let Self {
             parameters,
             state,
-            place,
+            configuration: Configuration { place, body },
+            ..
+        } = self;
+        let tau = drive.step(&state.tau, &Vector3::from(inputs.tau_a));
+        Equation {
             inputs,
             tau,
-            body,
-            problem,
+            problem: problem(parameters, state, place, body, &tau, inputs, dt),
             dt,
         }
     }
 
-    /// What the `solution` does.
+    /// Does what the `solution` of the `equation` says.
     #[inline]
-    pub(crate) fn take(&self, solution: &Solution) -> Arrived {
+    pub(crate) fn take(&mut self, equation: &Equation<'_>, solution: &Solution) -> Moved {
+        let Equation {
+            inputs,
+            tau,
+            ref problem,
+            dt,
+        } = *equation;
         let Self {
             parameters,
             state,
-            place,
-            inputs,
-            ref tau,
-            ref body,
-            ref problem,
-            dt,
-        } = *self;
-        let mut next = State {
-            q: state.q + solution.v * dt,
+            configuration,
+            ..
+        } = self;
+        let (before, Configuration { place: from, body }) = (*state, *configuration);
+        *state = State {
+            q: before.q + solution.v * dt,
             dq: solution.v.map(floored),
-            tau: *tau,
-            ..*state
+            tau,
+            ..before
         };
-        for (q, stops) in next.q.iter_mut().zip(&parameters.stops) {
+        for (q, stops) in state.q.iter_mut().zip(&parameters.stops) {
             *q = q.max(stops.min).min(stops.max); // not beyond a stop, not by rounding either
         }
-        let there = Place::at(parameters, &next.q);
+        if !identical(&state.q, &before.q) {
+            configuration.follow(parameters, state);
+        }
+        let to = &configuration.place;
         for (k, surface) in parameters.surfaces().iter().enumerate() {
-            let penetration = surface.penetration(FACINGS[k], there.pad.p[FACINGS[k].axis()]);
-            next.s[k] = penetration.max(surface.wall().relaxed(state.s[k], dt));
+            let penetration = surface.penetration(FACINGS[k], to.pad.p[FACINGS[k].axis()]);
+            state.s[k] = penetration.max(surface.wall().relaxed(before.s[k], dt));
         }
 
         let friction = Vector3::from_fn(|i, _| problem.joints[i].friction(solution.joint[i]));
         let flow = Taken {
             parameters,
-            body,
+            body: &body,
             solution,
             friction: &friction,
-            before: (state, place),
-            after: (&next, &there),
+            before: (&before, &from),
+            after: (state, to),
             dt,
         }
         .flow(inputs);
-        let mut shown = Shown {
+        self.shown = Shown {
             f_e: problem.on_pad(&solution.normal, &solution.tangent) / dt,
-            tau_f: friction / dt - next.dq.component_mul(&parameters.viscous()),
+            tau_f: friction / dt - state.dq.component_mul(&parameters.viscous()),
             tension: 0.0,
             contact: solution.normal[0] > 0.0 || solution.normal[1] > 0.0,
             path: solution.path,
         };
         if state.attached {
-            let a = (there.pad.J * next.dq - place.pad.J * state.dq) / dt;
+            let a = (to.pad.J * state.dq - from.pad.J * before.dq) / dt;
             let (m, gravity) = (parameters.payload_m, &parameters.masses.gravity);
-            shown.tension = payload::tension(m, &a, gravity, &shown.f_e);
+            self.shown.tension = payload::tension(m, &a, gravity, &self.shown.f_e);
         }
-        Arrived {
-            state: next,
-            place: there,
-            shown,
+        Moved {
             flow,
             pressure: solution.normal[0] / dt,
         }
     }
 }
 
-impl Arrived {
-    /// The payload is gripped, released or lost.
-    #[inline]
-    pub(crate) fn exchange(&mut self, parameters: &Parameters, event: Event) {
-        if event == Event::Stays || parameters.payload_m == 0.0 {
-            return;
-        }
-        let Self {
-            state, place, flow, ..
-        } = self;
-        let m = parameters.payload_m;
-        let potential = -m * Vector3::from(parameters.masses.gravity).dot(&place.pad.p);
-        let without = parameters.body(&place.pose, false);
-        if event == Event::Attaches {
-            let with = parameters.body(&place.pose, true);
-            let v = payload::gripped(&without, &with, &state.dq);
-            flow.payload = potential;
-            flow.loss_grip =
-                without.kinetic(&(state.dq - v)) + 0.5 * m * (place.pad.J * v).norm_squared();
-            state.dq = v;
-            state.attached = true;
-        } else {
-            flow.payload = -(potential + 0.5 * m * (place.pad.J * state.dq).norm_squared());
-            state.attached = false;
-        }
-    }
-}
-
-/// Advances `state` by `dt` (s) with `inputs` held. `place` is the arm at `state.q`, and afterwards at the new one; `guess`
-/// carries the solver's guess on.
-pub fn substep(
-    parameters: &Parameters,
-    drive: &Drive,
-    state: &mut State,
-    place: &mut Place,
-    guess: &mut Guess,
-    inputs: &Inputs,
-    dt: f64,
-) -> (Shown, Flow) {
-    let posed = Posed::at(parameters, drive, state, place, inputs, dt);
-    let mut arrived = posed.take(&solver::solve(&posed.problem, guess));
-    let event = parameters.vacuum.event(
-        state.attached,
-        inputs.vacuum,
-        arrived.shown.tension,
-        arrived.pressure,
-    );
-    arrived.exchange(parameters, event);
-    (*state, *place) = (arrived.state, arrived.place);
-    (arrived.shown, arrived.flow)
+/// Equal in every bit: −0 is not 0.
+fn identical(a: &Vector3<f64>, b: &Vector3<f64>) -> bool {
+    a.iter().zip(b).all(|(a, b)| a.to_bits() == b.to_bits())
 }

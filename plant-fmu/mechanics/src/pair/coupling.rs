@@ -12,7 +12,7 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use crate::arm::guess::Guess;
+use crate::arm::guess::{Guess, Linear};
 use crate::arm::problem::{Problem, Solution};
 use crate::arm::solver;
 
@@ -54,20 +54,18 @@ struct Tried {
     F: Vector3<f64>,
 }
 
-/// `problem` with the impulse `on_pad` (N·s) on the pad.
-pub(crate) fn pushed(problem: &Problem, on_pad: &Vector3<f64>) -> Problem {
-    Problem {
-        b: problem.b + problem.J.tr_mul(on_pad),
-        ..*problem
-    }
+/// b of `problem` (N·m·s) with the impulse `on_pad` (N·s) on the pad.
+fn pushed(problem: &Problem, on_pad: &Vector3<f64>) -> Vector3<f64> {
+    problem.b + problem.J.tr_mul(on_pad)
 }
 
 /// W = ∂w/∂Λ (1/kg) on the piece on which `guess` holds. There w is affine, and differences of it are exact up to rounding.
 fn mobility(problem: &Problem, guess: &Guess) -> Matrix3<f64> {
-    let still = problem.J * guess.solve(problem).v;
+    let linear = Linear::of(guess, problem);
+    let still = linear.w(&problem.b);
     Matrix3::from_columns(&[0, 1, 2].map(|axis| {
         let unit = Vector3::from_fn(|i, _| f64::from(u8::from(i == axis)));
-        problem.J * guess.solve(&pushed(problem, &unit)).v - still
+        linear.w(&pushed(problem, &unit)) - still
     }))
 }
 
@@ -83,9 +81,8 @@ impl Coupling {
         let rounding = problems[0].rounding() + problems[1].rounding();
         let mut now = self.tried(problems, *guesses, *last);
         let mut rounds = 0;
+        let mut slope = self.slope(problems, &now.guesses);
         while rounds < ROUNDS {
-            let W = mobility(problems[0], &now.guesses[0]) + mobility(problems[1], &now.guesses[1]);
-            let slope = Matrix3::identity() + W * self.kappa_dt;
             if now.F.amax() <= ROUNDINGS * rounding * slope.amax() {
                 break;
             }
@@ -93,16 +90,19 @@ impl Coupling {
             let delta = slope.try_inverse().unwrap_or_else(Matrix3::identity) * -now.F;
             let begin = now.F.dot(&delta);
             let mut share = 1.0;
-            loop {
+            let next = loop {
                 rounds += 1;
                 let next = self.tried(problems, now.guesses, now.impulse + delta * share);
                 let end = next.F.dot(&delta);
                 if end <= -OVERSHOOT * begin || rounds >= ROUNDS {
-                    now = next;
-                    break;
+                    break next;
                 }
                 share *= begin / (begin - end);
+            };
+            if next.guesses != now.guesses {
+                slope = self.slope(problems, &next.guesses); // of another piece
             }
+            now = next;
         }
         *guesses = now.guesses;
         Coupled {
@@ -112,6 +112,12 @@ impl Coupling {
         }
     }
 
+    /// ∂F/∂Λ on the piece on which `guesses` hold.
+    fn slope(&self, problems: [&Problem; 2], guesses: &[Guess; 2]) -> Matrix3<f64> {
+        let W = mobility(problems[0], &guesses[0]) + mobility(problems[1], &guesses[1]);
+        Matrix3::identity() + W * self.kappa_dt
+    }
+
     fn tried(
         &self,
         problems: [&Problem; 2],
@@ -119,7 +125,10 @@ impl Coupling {
         impulse: Vector3<f64>,
     ) -> Tried {
         let solutions = [0, 1].map(|i| {
-            let problem = pushed(problems[i], &(impulse * SIGNS[i]));
+            let problem = Problem {
+                b: pushed(problems[i], &(impulse * SIGNS[i])),
+                ..*problems[i]
+            };
             solver::solve(&problem, &mut guesses[i])
         });
         let w = [0, 1].map(|i| problems[i].J * solutions[i].v);

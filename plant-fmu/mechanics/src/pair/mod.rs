@@ -48,4 +48,4 @@ pub mod plant;
 
 pub use bond::Bond;
 pub use energy::Balance;
-pub use plant::{Half, Pair, Parameters};
+pub use plant::{Pair, Parameters};

@@ -7,12 +7,9 @@ use super::coupling::{Coupled, Coupling, SIGNS};
 use super::energy::{self, Balance};
 use crate::ParameterError;
 use crate::arm::drive::Drive;
-use crate::arm::energy::{Ledger, Stored};
-use crate::arm::guess::Guess;
 use crate::arm::payload::Event;
-use crate::arm::state::{Place, Shown};
-use crate::arm::substep::{Arrived, Posed};
-use crate::arm::{self, Inputs, Start, State, solver};
+use crate::arm::substep::Moved;
+use crate::arm::{self, Arm, Inputs, Start, solver};
 
 /// What the two arms are made of.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -24,71 +21,13 @@ pub struct Parameters {
     pub bond: Bond,
 }
 
-/// One of the arms, in coordinates of its own shoulder.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct Half {
-    /// With half the payload.
-    parameters: arm::Parameters,
-    state: State,
-    guess: Guess,
-    shown: Shown,
-    ledger: Ledger,
-}
-
-impl Half {
-    fn start(parameters: arm::Parameters, start: &Start) -> Self {
-        let state = State {
-            q: Vector3::from(start.q),
-            dq: Vector3::from(start.dq),
-            tau: Vector3::zeros(),
-            s: [0.0; 2],
-            attached: start.attached && parameters.payload_m > 0.0,
-        };
-        let place = Place::at(&parameters, &state.q);
-        Self {
-            parameters,
-            state,
-            guess: Guess::default(),
-            shown: Shown::default(),
-            ledger: Ledger::open(&Stored::of(&parameters, &state, &place)),
-        }
-    }
-
-    /// Joint angles and velocities, torques, deflections, payload.
-    pub fn state(&self) -> &State {
-        &self.state
-    }
-
-    /// Joint angles (rad).
-    pub fn q(&self) -> Vector3<f64> {
-        self.state.q
-    }
-
-    /// Pose, handle and pad with their Jacobians; origin at this arm's shoulder.
-    pub fn place(&self) -> Place {
-        Place::at(&self.parameters, &self.state.q)
-    }
-
-    /// What the last substep showed. `tension` is what this cup bears: the weight and inertia of its half, less what
-    /// surfaces and the other half bear.
-    pub fn shown(&self) -> &Shown {
-        &self.shown
-    }
-
-    /// This arm's own balance: the work of the other one, through λ, is missing from it and makes up its residual.
-    pub fn energy(&self) -> arm::Energy {
-        self.ledger
-            .balance(&Stored::of(&self.parameters, &self.state, &self.place()))
-    }
-}
-
 /// Two arms, left and right, and the payload that they share.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Pair {
     bond: Bond,
-    arms: [Half; 2],
+    /// Each with half the payload, in coordinates of its own shoulder.
+    arms: [Arm; 2],
     /// p_L − p_R at the grip, each from its own shoulder (m).
     offset: Vector3<f64>,
     /// Λ of the last substep (N·s): where the next one starts to search.
@@ -121,7 +60,7 @@ impl Pair {
         arm.payload_m *= 0.5;
         Self {
             bond: parameters.bond,
-            arms: [Half::start(arm, start); 2],
+            arms: [Arm::start(arm, start); 2],
             offset: Vector3::zeros(),
             impulse: Vector3::zeros(),
             lambda: Vector3::zeros(),
@@ -132,102 +71,108 @@ impl Pair {
 
     /// Runs `n` substeps of `dt` (s) with the `inputs` of the left and the right arm held.
     pub fn advance(&mut self, inputs: &[Inputs; 2], n: u32, dt: f64) {
-        let drive = Drive::new(self.arms[0].parameters.drive_cutoff, dt);
-        let mut places = [self.arms[0].place(), self.arms[1].place()];
+        let drive = Drive::new(self.arms[0].parameters().drive_cutoff, dt);
         for _ in 0..n {
-            self.substep(&drive, inputs, &mut places, dt);
+            self.substep(&drive, inputs, dt);
         }
     }
 
-    fn substep(&mut self, drive: &Drive, inputs: &[Inputs; 2], places: &mut [Place; 2], dt: f64) {
+    fn substep(&mut self, drive: &Drive, inputs: &[Inputs; 2], dt: f64) {
         let attached = self.attached();
-        let g = self.gap_at(places);
-        let posed = [0, 1].map(|i| {
-            let half = &self.arms[i];
-            let (parameters, state) = (&half.parameters, &half.state);
-            Posed::at(parameters, drive, state, &places[i], &inputs[i], dt)
-        });
-        let mut guesses = [self.arms[0].guess, self.arms[1].guess];
+        let g = self.g();
+        let [left, right] = &mut self.arms;
+        let of_left = left.equation(drive, &inputs[0], dt);
+        let of_right = right.equation(drive, &inputs[1], dt);
+        let mut guesses = [left.guess, right.guess];
         let coupled = if attached {
             Coupling {
                 push: g * (-dt * self.bond.k),
                 kappa_dt: self.bond.impedance(dt) * dt,
             }
             .solve(
-                [&posed[0].problem, &posed[1].problem],
+                [&of_left.problem, &of_right.problem],
                 &mut guesses,
                 &self.impulse,
             )
         } else {
             Coupled {
                 impulse: Vector3::zeros(),
-                solutions: [0, 1].map(|i| solver::solve(&posed[i].problem, &mut guesses[i])),
+                solutions: [
+                    solver::solve(&of_left.problem, &mut guesses[0]),
+                    solver::solve(&of_right.problem, &mut guesses[1]),
+                ],
                 rounds: 0,
             }
         };
-        let mut arrived = [0, 1].map(|i| posed[i].take(&coupled.solutions[i]));
+        (left.guess, right.guess) = (guesses[0], guesses[1]);
+        let moved = [
+            left.take(&of_left, &coupled.solutions[0]),
+            right.take(&of_right, &coupled.solutions[1]),
+        ];
         let lambda = coupled.impulse / dt;
         if attached {
-            for (arrived, sign) in arrived.iter_mut().zip(SIGNS) {
-                arrived.shown.tension -= sign * lambda.z;
+            for (arm, sign) in self.arms.iter_mut().zip(SIGNS) {
+                arm.shown.tension -= sign * lambda.z;
             }
         }
-        let event = self.event(inputs, &arrived);
-        for arrived in &mut arrived {
-            arrived.exchange(&self.arms[0].parameters, event);
+        let event = self.event(inputs, &moved);
+        for (arm, moved) in self.arms.iter_mut().zip(moved) {
+            arm.finish(moved.flow, event);
         }
-        *places = [arrived[0].place, arrived[1].place];
         if attached {
-            let after = self.gap_at(places);
+            let after = self.offset_now() - self.offset;
             self.ledger.book(&self.bond, &g, &after, dt);
             if event != Event::Stays {
                 self.ledger.release(&self.bond, &after);
             }
         }
-        for ((half, arrived), guess) in self.arms.iter_mut().zip(&arrived).zip(guesses) {
-            (half.state, half.shown, half.guess) = (arrived.state, arrived.shown, guess);
-            half.ledger.book(&arrived.flow);
-        }
         if event == Event::Attaches {
-            self.offset = places[0].pad.p - places[1].pad.p;
+            self.offset = self.offset_now();
         }
         self.impulse = coupled.impulse;
         (self.lambda, self.rounds) = (lambda, coupled.rounds);
     }
 
     /// What happens to the payload: gripped by both cups or by none, held by both or by none.
-    fn event(&self, inputs: &[Inputs; 2], arrived: &[Arrived; 2]) -> Event {
-        let [left, right] = arrived;
-        self.arms[0].parameters.vacuum.event(
+    fn event(&self, inputs: &[Inputs; 2], moved: &[Moved; 2]) -> Event {
+        let [left, right] = &self.arms;
+        left.parameters().vacuum.event(
             self.attached(),
             inputs[0].vacuum && inputs[1].vacuum,
-            left.shown.tension.max(right.shown.tension),
-            left.pressure.min(right.pressure),
+            left.tension().max(right.tension()),
+            moved[0].pressure.min(moved[1].pressure),
         )
     }
 
-    fn gap_at(&self, places: &[Place; 2]) -> Vector3<f64> {
+    /// p_L − p_R, each from its own shoulder (m).
+    fn offset_now(&self) -> Vector3<f64> {
+        self.arms[0].place().pad.p - self.arms[1].place().pad.p
+    }
+
+    /// g (m); 0 without payload.
+    fn g(&self) -> Vector3<f64> {
         if self.attached() {
-            places[0].pad.p - places[1].pad.p - self.offset
+            self.offset_now() - self.offset
         } else {
             Vector3::zeros()
         }
     }
 
-    /// The left and the right arm.
-    pub fn arms(&self) -> &[Half; 2] {
+    /// The left and the right arm, each in coordinates of its own shoulder and with half the payload. Its `tension` is what
+    /// its cup bears: the weight and inertia of its half, less what surfaces and the other half bear. The work of the other
+    /// arm, through λ, is missing from its energy balance and makes up the residual there.
+    pub fn arms(&self) -> &[Arm; 2] {
         &self.arms
     }
 
     /// Whether the payload hangs at both pads.
     pub fn attached(&self) -> bool {
-        self.arms[0].state.attached
+        self.arms[0].attached()
     }
 
     /// By how much the pads have left the offset that they had at the grip (m): |p_L − p_R − r|; 0 without payload.
     pub fn gap(&self) -> f64 {
-        self.gap_at(&[self.arms[0].place(), self.arms[1].place()])
-            .norm()
+        self.g().norm()
     }
 
     /// Force λ of the right half of the payload on the left one, base frame, mean of the last substep (N); 0 without.
@@ -242,8 +187,7 @@ impl Pair {
 
     /// Energy balance since the start.
     pub fn energy(&self) -> Balance {
-        let g = self.gap_at(&[self.arms[0].place(), self.arms[1].place()]);
-        let bond = self.bond.energy(&g);
+        let bond = self.bond.energy(&self.g());
         let loss_bond = self.ledger.loss.value();
         let (loss_step, left) = (self.ledger.loss_step.value(), self.ledger.left.value());
         let arms = energy::sum(&self.arms[0].energy(), &self.arms[1].energy());
