@@ -19,6 +19,7 @@
 //! | [`build`] | libraries without a trace of this machine |
 //! | [`fmu`] | archives from libraries |
 //! | [`fuzz`] | random calls on the FMUs, under memcheck |
+//! | [`instructions`] | instructions per call, counted by callgrind |
 //! | [`linked`] | what is linked into a library, with its licence texts |
 //! | [`licence`] | which licences may be |
 //! | [`wiring`] | which output belongs to which input |
@@ -33,6 +34,7 @@ mod catalogue;
 mod dist;
 mod fmu;
 mod fuzz;
+mod instructions;
 mod law;
 mod licence;
 mod linked;
@@ -111,8 +113,18 @@ enum Command {
         #[arg(long)]
         memcheck: bool,
     },
-    /// Measure: FMU calls (cargo bench), harness loop
-    Bench,
+    /// Measure: instructions per call (callgrind), FMU calls (cargo bench), harness loop
+    Bench {
+        /// Count instructions only
+        #[arg(long)]
+        instructions: bool,
+        /// Count instructions, and rewrite the committed counts
+        #[arg(long)]
+        bless: bool,
+        /// Count instructions of the archives in this folder; without it they are built
+        #[arg(long)]
+        fmu_dir: Option<std::path::PathBuf>,
+    },
     /// Create the Python environment .venv from harness/requirements.lock
     Venv,
 }
@@ -139,7 +151,14 @@ fn main() -> ExitCode {
             replay,
             memcheck,
         }),
-        Command::Bench => stages::bench(),
+        Command::Bench {
+            instructions,
+            bless,
+            fmu_dir,
+        } => match fmu_dir {
+            None if !instructions && !bless => stages::bench(),
+            folder => stages::instructions(folder, bless),
+        },
         Command::Venv => stages::venv(),
     };
     match outcome {

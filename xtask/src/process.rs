@@ -109,6 +109,24 @@ pub fn run(command: &mut Command) -> Outcome {
     }
 }
 
+/// Runs it for what it prints; its errors are shown.
+pub fn output(command: &mut Command) -> Outcome<String> {
+    let outcome = command.stderr(Stdio::inherit()).output();
+    let output = outcome.map_err(|cause| Failure::Start {
+        command: line(command),
+        cause,
+    })?;
+    let text = String::from_utf8_lossy(&output.stdout).into_owned();
+    if output.status.success() {
+        return Ok(text);
+    }
+    print!("{text}");
+    Err(Failure::Exit {
+        command: line(command),
+        status: output.status,
+    })
+}
+
 /// Runs it for its first line of output; `None` when it cannot be started or fails.
 pub fn answer(command: &mut Command) -> Option<String> {
     let output = command
@@ -119,6 +137,19 @@ pub fn answer(command: &mut Command) -> Option<String> {
     String::from_utf8(output.stdout)
         .ok()
         .map(|text| text.trim().to_owned())
+}
+
+/// Builds a program of a package of ours; returns where it lies.
+///
+/// # Errors
+/// When cargo fails.
+pub fn built(package: &str, name: &str) -> Outcome<PathBuf> {
+    let arguments = ["--locked", "--package", package, "--bin", name];
+    run(cargo(["build", "--quiet"]).args(arguments))?;
+    let target =
+        std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| "target".into(), PathBuf::from);
+    let file = format!("{name}{}", std::env::consts::EXE_SUFFIX);
+    Ok(root().join(target).join("debug").join(file))
 }
 
 /// A failure to read or write `path`.

@@ -4,6 +4,7 @@
 use crate::catalogue::FMUS;
 use crate::process::{Failure, Outcome, answer, cargo, program, root, run};
 use crate::venv::{Venv, check_machine};
+use std::path::PathBuf;
 use std::process::Command;
 use std::time::{Duration, Instant};
 
@@ -136,6 +137,7 @@ pub fn test(keep_going: bool) -> Outcome {
             )
         });
         stages.stage("memcheck", crate::fuzz::memcheck);
+        stages.stage("instructions", || crate::instructions::check(&fmus()));
         stages.stage("importers", || {
             with_libclang(venv, cargo(["test", "--locked", "--package", "importers"]))
         });
@@ -191,12 +193,33 @@ pub fn reproduce() -> Outcome {
     outcome
 }
 
+/// `cargo xtask bench --instructions`, `--bless`
+pub fn instructions(folder: Option<PathBuf>, bless: bool) -> Outcome {
+    let folder = match folder {
+        Some(folder) => folder,
+        None => {
+            crate::fmu::build_all(false)?;
+            fmus()
+        }
+    };
+    match bless {
+        true => crate::instructions::bless(&folder),
+        false => crate::instructions::check(&folder),
+    }
+}
+
+/// Where the built archives lie.
+fn fmus() -> PathBuf {
+    root().join("target/fmu")
+}
+
 /// `cargo xtask bench`
 pub fn bench() -> Outcome {
     check_machine()?;
     let mut stages = Stages::new(false);
     let venv = stages.stage("venv", Venv::ready);
     stages.stage("fmu", || crate::fmu::build_all(false));
+    stages.stage("instructions", || crate::instructions::check(&fmus()));
     stages.stage("cargo bench", || {
         run(&mut cargo(["bench", "--locked", "--package", "abi"]))
     });
