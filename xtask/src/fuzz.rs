@@ -1,6 +1,5 @@
 //! Random call sequences on the built FMUs (`tests/abi`, `call_sequences`): as a command, and under valgrind's memcheck.
 
-use crate::catalogue::FMUS;
 use crate::process::{Failure, Outcome, answer, built, program, run};
 use std::path::Path;
 use std::process::Command;
@@ -28,7 +27,7 @@ pub struct Request {
 /// The FMUs by name, and the test model.
 fn names() -> Vec<&'static str> {
     let mut names = vec!["Lag"];
-    names.extend(FMUS.map(|fmu| fmu.name));
+    names.extend(fmus::NAMES);
     names
 }
 
@@ -78,7 +77,7 @@ pub fn memcheck() -> Outcome {
         ),
     }
     let player = built("abi", "call_sequences")?;
-    two_at_a_time(&FMUS.map(|fmu| fmu.name), |name| {
+    two_at_a_time(fmus::NAMES, |name| {
         played(&player, name, CALLS, SEED, valgrind.is_some())
     })
 }

@@ -15,14 +15,13 @@
 //!
 //! | module | what |
 //! |---|---|
-//! | [`catalogue`] | the table of the FMUs, and their committed descriptions |
+//! | [`catalogue`] | what the program `catalogue`, which knows the models, is asked for |
 //! | [`build`] | libraries without a trace of this machine |
 //! | [`fmu`] | archives from libraries |
 //! | [`fuzz`] | random calls on the FMUs, under memcheck |
 //! | [`instructions`] | instructions per call, counted by callgrind |
-//! | [`linked`] | what is linked into a library, with its licence texts |
+//! | [`linked`], [`component`] | what is linked into a library, with its licence texts |
 //! | [`licence`] | which licences may be |
-//! | [`wiring`] | which output belongs to which input |
 //! | [`law`] | the C library: header, static libraries, example |
 //! | [`dist`] | archives for many platforms |
 //! | [`venv`] | the Python environment |
@@ -31,6 +30,9 @@
 
 mod build;
 mod catalogue;
+/// The source that the package `model-description` compiles, too: this one need not depend on it.
+#[path = "../../modelDescription/src/component.rs"]
+mod component;
 mod dist;
 mod fmu;
 mod fuzz;
@@ -38,12 +40,9 @@ mod instructions;
 mod law;
 mod licence;
 mod linked;
-#[cfg(test)]
-mod pictures;
 mod process;
 mod stages;
 mod venv;
-mod wiring;
 
 use clap::{Parser, Subcommand};
 use std::process::ExitCode;

@@ -31,13 +31,6 @@ pub enum Failure {
         /// Cause.
         cause: io::Error,
     },
-    /// A declaration breaks a rule.
-    Declaration {
-        /// FMU.
-        fmu: &'static str,
-        /// Rule.
-        cause: model_description::Error,
-    },
     /// Found wrong by ourselves.
     Found(String),
     /// Stages failed.
@@ -54,7 +47,6 @@ impl fmt::Display for Failure {
             Self::Start { command, cause } => write!(f, "cannot start `{command}`: {cause}"),
             Self::Exit { command, status } => write!(f, "`{command}` failed ({status})"),
             Self::File { path, cause } => write!(f, "{}: {cause}", path.display()),
-            Self::Declaration { fmu, cause } => write!(f, "declaration of {fmu}: {cause}"),
             Self::Found(what) => f.write_str(what),
             Self::Stages(names) => write!(f, "failed: {}", names.join(", ")),
         }

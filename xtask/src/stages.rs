@@ -1,7 +1,6 @@
 //! Commands made of stages. Each stage prints its name and its time; the first failure ends the command, unless it was
 //! told to keep going.
 
-use crate::catalogue::FMUS;
 use crate::process::{Failure, Outcome, answer, cargo, program, root, run};
 use crate::venv::{Venv, check_machine};
 use std::path::PathBuf;
@@ -149,9 +148,11 @@ pub fn test(keep_going: bool) -> Outcome {
             run(in_harness(&mut venv.command(["-m", "mypy"])))
         });
         stages.stage("exo validate", || {
-            run(venv
-                .exo(["validate", "--strict"])
-                .args(FMUS.map(|fmu| format!("target/fmu/{}.fmu", fmu.name))))
+            run(venv.exo(["validate", "--strict"]).args(
+                fmus::NAMES
+                    .iter()
+                    .map(|name| format!("target/fmu/{name}.fmu")),
+            ))
         });
         stages.stage("pytest", || {
             // The same loop in native Rust, for the comparison with fmpy.

@@ -5,7 +5,6 @@
 mod baseline;
 mod callgrind;
 
-use crate::catalogue::FMUS;
 use crate::fuzz::{VALGRIND, valgrind};
 use crate::law::{self, PRECISIONS};
 use crate::process::{Failure, Outcome, answer, at, built, program, root, run};
@@ -68,7 +67,7 @@ fn counted(folder: &Path) -> Outcome<Option<Counts>> {
     let out = root().join("target/instructions");
     std::fs::create_dir_all(&out).map_err(at(&out))?;
     let driver = built("abi", "counted_calls")?;
-    for fmu in FMUS {
+    for fmu in fmus::ALL {
         let mut command = program(&driver, ["--fmu-dir"]);
         command.arg(folder).args(["--fmu", fmu.name]);
         command.args(["--calls", &CALLS.to_string()]);
