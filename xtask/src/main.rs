@@ -6,6 +6,8 @@
 //! | `cargo xtask ssp` | the coupled systems for other tools | `target/ssp/*.ssp`, `*.fmu` |
 //! | `cargo xtask dist` | the archives with the libraries of every platform | `target/dist/*.fmu` |
 //! | `cargo xtask test` | everything that is checked | |
+//! | `cargo xtask ci` | the same, and `dist --check` beside it | |
+//! | `cargo xtask stage NAME` | one stage of it, after those that it waits for | |
 //! | `cargo xtask reproduce` | the paper's experiments | `results/report.html` |
 //! | `cargo xtask adversary --minutes N` | attacks on the energy tank | what breaks it, in `tests/adversary/regressions.txt` |
 //! | `cargo xtask fuzz [--calls N] [--seed S] [--fmu NAME]` | random calls on the built FMUs | a failing sequence, printed |
@@ -25,11 +27,13 @@
 //! | [`law`] | the C library: header, static libraries, example |
 //! | [`dist`] | archives for many platforms |
 //! | [`venv`] | the Python environment |
-//! | [`stages`] | commands made of stages, each with its time |
+//! | [`checks`], [`schedule`] | the stages of `test` and `ci`, and how they run side by side |
+//! | [`stages`] | other commands made of stages, each with its time |
 //! | [`process`] | other programs, and what went wrong with them |
 
 mod build;
 mod catalogue;
+mod checks;
 /// The source that the package `model-description` compiles, too: this one need not depend on it.
 #[path = "../../modelDescription/src/component.rs"]
 mod component;
@@ -41,6 +45,7 @@ mod law;
 mod licence;
 mod linked;
 mod process;
+mod schedule;
 mod stages;
 mod venv;
 
@@ -76,6 +81,17 @@ enum Command {
         /// Run the remaining stages after one has failed
         #[arg(long)]
         keep_going: bool,
+    },
+    /// What `test` and `dist --check` do, side by side
+    Ci {
+        /// Run the remaining stages after one has failed
+        #[arg(long)]
+        keep_going: bool,
+    },
+    /// Run one stage of `ci`
+    Stage {
+        /// Its name, as the table of stages shows it
+        name: String,
     },
     /// Build the C library into target/law: f64 and f32
     Law {
@@ -133,7 +149,9 @@ fn main() -> ExitCode {
         Command::Fmu { bless } => stages::fmu(bless),
         Command::Ssp => stages::ssp(),
         Command::Dist { check } => dist::dist(check),
-        Command::Test { keep_going } => stages::test(keep_going),
+        Command::Test { keep_going } => checks::test(keep_going),
+        Command::Ci { keep_going } => checks::ci(keep_going),
+        Command::Stage { name } => checks::one(&name),
         Command::Law { bless } => law::build_all(bless),
         Command::Reproduce => stages::reproduce(),
         Command::Adversary { minutes, seed } => stages::adversary(minutes, seed),

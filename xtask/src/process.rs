@@ -1,5 +1,6 @@
 //! Other programs, and what went wrong with them.
 
+use crate::schedule::BUILT;
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitStatus, Stdio};
@@ -131,13 +132,15 @@ pub fn answer(command: &mut Command) -> Option<String> {
         .map(|text| text.trim().to_owned())
 }
 
-/// Builds a program of a package of ours; returns where it lies.
+/// Builds a program of a package of ours; returns where it lies. A stage of `cargo xtask test` finds it built.
 ///
 /// # Errors
 /// When cargo fails.
 pub fn built(package: &str, name: &str) -> Outcome<PathBuf> {
-    let arguments = ["--locked", "--package", package, "--bin", name];
-    run(cargo(["build", "--quiet"]).args(arguments))?;
+    if std::env::var_os(BUILT).is_none() {
+        let arguments = ["--locked", "--package", package, "--bin", name];
+        run(cargo(["build", "--quiet"]).args(arguments))?;
+    }
     let target =
         std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| "target".into(), PathBuf::from);
     let file = format!("{name}{}", std::env::consts::EXE_SUFFIX);

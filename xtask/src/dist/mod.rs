@@ -47,6 +47,45 @@ struct Row {
     ran: String,
 }
 
+/// Names of the platforms.
+#[cfg(test)]
+pub fn platforms() -> Vec<&'static str> {
+    PLATFORMS.iter().map(|platform| platform.folder).collect()
+}
+
+/// Fetches all tools that can be had; those that cannot are named by who needs them.
+pub fn toolchains() -> Outcome {
+    Toolchains::default().fetch();
+    Ok(())
+}
+
+/// Builds and inspects one platform's libraries, if the tools for it can be had.
+pub fn platform(folder: &str) -> Outcome {
+    let tools = Toolchains::default();
+    let platform = PLATFORMS.iter().find(|one| one.folder == folder);
+    let platform = platform.ok_or(Failure::Missing("no such platform"))?;
+    let row = row(platform, &tools)?;
+    println!("   {}", row.needs);
+    Ok(())
+}
+
+fn row(platform: &'static Platform, tools: &Toolchains) -> Outcome<Row> {
+    let (built, needs) = match Plan::of(platform, tools) {
+        Ok(plan) => {
+            let built = plan.build(platform, &compile::folder(), None)?;
+            let needs = inspected(platform, &built)?;
+            (Some(built), needs)
+        }
+        Err(reason) => (None, format!("not built: {reason}")),
+    };
+    Ok(Row {
+        platform,
+        built,
+        needs,
+        ran: String::new(),
+    })
+}
+
 /// Builds `target/dist/*.fmu`; with `check` also runs and compares what can be run here, and builds one library twice.
 pub fn dist(check: bool) -> Outcome {
     let tools = Toolchains::default();
@@ -54,24 +93,7 @@ pub fn dist(check: bool) -> Outcome {
     for platform in &PLATFORMS {
         println!("\n── {}", platform.folder);
         let began = Instant::now();
-        let row = match Plan::of(platform, &tools) {
-            Ok(plan) => {
-                let built = plan.build(platform, &compile::folder(), None)?;
-                let needs = inspected(platform, &built)?;
-                Row {
-                    platform,
-                    built: Some(built),
-                    needs,
-                    ran: String::new(),
-                }
-            }
-            Err(reason) => Row {
-                platform,
-                built: None,
-                needs: format!("not built: {reason}"),
-                ran: String::new(),
-            },
-        };
+        let row = row(platform, &tools)?;
         println!("   {}: {:.1} s", row.needs, began.elapsed().as_secs_f64());
         rows.push(row);
     }
