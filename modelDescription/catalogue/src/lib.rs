@@ -32,10 +32,16 @@ pub mod wiring;
 
 pub use fmu::{FMUS, Fmu};
 
-// The types, for macros that go through the list.
-pub use {
-    arm_controller, exoskeleton_arm, exoskeleton_arms, human_operator, testbed, testbed_controller,
-};
+/// The crates of the models, for macros that go through the list.
+pub mod models {
+    macro_rules! crates {
+        ($($crate_name:ident::$Type:ident, picture $picture:literal;)*) => {
+            $(pub use $crate_name;)*
+        };
+    }
+
+    fmus::each!(crates);
+}
 
 /// The folder of the workspace.
 pub fn root() -> std::path::PathBuf {
