@@ -10,7 +10,7 @@ use std::path::PathBuf;
 pub const LAG: &str = "lag";
 
 /// The smallest model, `modelDescription/export/examples/integrator.rs`.
-pub const SMALLEST: &str = "Integrator";
+pub const SMALLEST: &str = "integrator";
 
 /// Builds the libraries of all FMUs and of the two examples in release mode; returns where they lie, by name.
 pub fn libraries() -> Outcome<BTreeMap<&'static str, PathBuf>> {

@@ -73,22 +73,16 @@ pub fn tables(folder: &Path) -> Outcome {
 
 /// The C header of the law's library.
 pub fn law_header() -> Outcome<String> {
-    output(&mut program(
-        built("catalogue", "catalogue")?,
-        ["law-header"],
-    ))
+    output(&mut program(built("catalogue")?, ["law-header"]))
 }
 
 /// Names of the functions that a library exports.
 pub fn functions() -> Outcome<BTreeSet<String>> {
-    let text = output(&mut program(
-        built("catalogue", "catalogue")?,
-        ["functions"],
-    ))?;
+    let text = output(&mut program(built("catalogue")?, ["functions"]))?;
     Ok(text.lines().map(str::to_owned).collect())
 }
 
 fn ask(what: &str, about: Option<&Path>) -> Outcome {
-    let mut command = program(built("catalogue", "catalogue")?, [what]);
+    let mut command = program(built("catalogue")?, [what]);
     run(command.args(about))
 }

@@ -1,7 +1,7 @@
 //! Everything that is checked, as stages: `cargo xtask test`, and with the distribution `cargo xtask ci`.
 
 use crate::dist;
-use crate::process::{Outcome, answer, cargo, program, root, run};
+use crate::process::{Outcome, answer, build, cargo, program, root, run};
 use crate::schedule::{self, Stage};
 use crate::venv::{Venv, check_machine};
 use std::process::Command;
@@ -10,7 +10,8 @@ use std::process::Command;
 static TEST: [Stage; 14] = [
     stage("fmt", &[], || run(&mut cargo(["fmt", "--all", "--check"]))),
     stage("venv", &[], || Venv::ready().map(|_| ())),
-    stage("catalogue", &[], catalogue),
+    // What the archives are written by.
+    stage("catalogue", &[], || build("catalogue")),
     stage("fmu", &["catalogue"], || crate::fmu::build_all(false)),
     stage("clippy", &["venv", "catalogue"], clippy),
     stage("rustdoc", &["clippy"], rustdoc),
@@ -83,13 +84,6 @@ pub fn one(name: &str) -> Outcome {
 fn all() -> Vec<&'static Stage> {
     let (first, rest) = TEST.split_at(4);
     first.iter().chain(&DISTRIBUTION).chain(rest).collect()
-}
-
-/// What the archives are written by. It is built as part of the workspace, so that the models are compiled as the tests need
-/// them, and without the importers, whose features would bring another compressor: the archives had other bytes.
-fn catalogue() -> Outcome {
-    let what = ["build", "--locked", "--workspace", "--exclude", "importers"];
-    run(cargo(what).args(["--bin", "catalogue"]))
 }
 
 /// The packages of the workspace with libclang, which one of them needs.

@@ -49,7 +49,7 @@ pub fn fuzz(request: &Request) -> Outcome {
     if request.memcheck && valgrind().is_none() {
         return Err(Failure::Missing(VALGRIND));
     }
-    let player = built("abi", "call_sequences")?;
+    let player = built("call_sequences")?;
     if request.replay.is_none() {
         println!("seed {seed}");
     }
@@ -76,7 +76,7 @@ pub fn memcheck() -> Outcome {
             "NOT RUN: memcheck, {VALGRIND}; the same {CALLS} calls on each FMU without it, seed {SEED}"
         ),
     }
-    let player = built("abi", "call_sequences")?;
+    let player = built("call_sequences")?;
     two_at_a_time(fmus::NAMES, |name| {
         played(&player, name, CALLS, SEED, valgrind.is_some())
     })

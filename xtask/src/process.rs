@@ -132,19 +132,30 @@ pub fn answer(command: &mut Command) -> Option<String> {
         .map(|text| text.trim().to_owned())
 }
 
-/// Builds a program of a package of ours; returns where it lies. A stage of `cargo xtask test` finds it built.
+/// Where a program of ours lies; builds it, unless this is a stage that finds it built.
 ///
 /// # Errors
 /// When cargo fails.
-pub fn built(package: &str, name: &str) -> Outcome<PathBuf> {
+pub fn built(name: &str) -> Outcome<PathBuf> {
     if std::env::var_os(BUILT).is_none() {
-        let arguments = ["--locked", "--package", package, "--bin", name];
-        run(cargo(["build", "--quiet"]).args(arguments))?;
+        build(name)?;
     }
     let target =
         std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| "target".into(), PathBuf::from);
     let file = format!("{name}{}", std::env::consts::EXE_SUFFIX);
     Ok(root().join(target).join("debug").join(file))
+}
+
+/// Builds a program of ours. It is built as part of the workspace, so that what it has in common with the tests is compiled
+/// once; and without the importers, whose features would bring another compressor, so that the archives had other bytes.
+///
+/// # Errors
+/// When cargo fails.
+pub fn build(name: &str) -> Outcome {
+    let packages = ["--locked", "--workspace", "--exclude", "importers"];
+    run(cargo(["build", "--quiet"])
+        .args(packages)
+        .args(["--bin", name]))
 }
 
 /// A failure to read or write `path`.

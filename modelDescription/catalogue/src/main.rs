@@ -68,7 +68,7 @@ fn archives(requests: &Path) -> Result<(), String> {
     let text = std::fs::read_to_string(requests).map_err(at(requests))?;
     let requests: Vec<Request> =
         serde_json::from_str(&text).map_err(|error| format!("{}: {error}", requests.display()))?;
-    let example = Fmu::example::<integrator::Integrator>("Integrator");
+    let example = Fmu::example::<integrator::Integrator>("integrator");
     for request in requests {
         let listed = Fmu::named(&request.name);
         let fmu = listed

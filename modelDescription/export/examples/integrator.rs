@@ -14,7 +14,7 @@ pub struct Integrator {
 #[rustfmt::skip] // a table
 impl Declare for Integrator {
     const DESCRIPTION: Description<Self> = Description {
-        name: "Integrator",
+        name: "integrator",
         about: "Integrator dy/dt = u",
         stepping: Stepping::Exact,
         experiment: Experiment { start: 0.0, stop: 1.0, tolerance: 1e-6, step: 0.01 },

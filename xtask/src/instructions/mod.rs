@@ -66,7 +66,7 @@ fn counted(folder: &Path) -> Outcome<Option<Counts>> {
     let mut counts = Counts::new();
     let out = root().join("target/instructions");
     std::fs::create_dir_all(&out).map_err(at(&out))?;
-    let driver = built("abi", "counted_calls")?;
+    let driver = built("counted_calls")?;
     for fmu in fmus::ALL {
         let mut command = program(&driver, ["--fmu-dir"]);
         command.arg(folder).args(["--fmu", fmu.name]);
