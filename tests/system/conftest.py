@@ -15,9 +15,9 @@ from exo.experiment import Experiment
 from exo.fmu import Archive, find_fmu_dir
 from exo.recording import Recording
 
-ROOT = Path(__file__).resolve().parents[2]
-#: The FMUs: those with a committed description, which are those of the list in `modelDescription/fmus`.
-NAMES = tuple(sorted(path.stem for path in (ROOT / "modelDescription").glob("*.xml")))
+from foreign.matrix import names
+
+NAMES = names()
 
 
 def verdict_ids(name: str) -> list[str]:
@@ -31,7 +31,7 @@ def verdict_ids(name: str) -> list[str]:
 @pytest.fixture(scope="session")
 def fmu_dir() -> Path:
     """The folder of the built archives."""
-    here = ROOT / "target" / "fmu"
+    here = Path(__file__).resolve().parents[2] / "target" / "fmu"
     try:
         folder = here if here.is_dir() else find_fmu_dir()
     except FmuError as error:
