@@ -138,13 +138,7 @@ fn with_units(text: &str, config: &str, units: &BTreeMap<(String, String), Strin
     };
     let units: BTreeMap<_, _> = units
         .iter()
-        .filter_map(|((of, field), unit)| {
-            let unit = declaration::unit::ALL
-                .iter()
-                .find(|(name, _)| name == unit)?
-                .1;
-            Some(((renamed(of)?, field.clone()), unit.name))
-        })
+        .filter_map(|((of, field), what)| Some(((renamed(of)?, field.clone()), meaning(what)?)))
         .collect();
     let mut of = String::new();
     let mut lines = Vec::new();
