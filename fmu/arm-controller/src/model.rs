@@ -17,11 +17,13 @@ impl Model for ArmController {
         self.advise(log)?;
         // What is shown is a law at rest; what begins to run knows no motion yet.
         let mut at_rest = arm_law;
-        let shown = at_rest
-            .tick(&Inputs {
-                engage: false,
-                ..self.inputs()
-            })
+        let mut shown = Outputs::default();
+        let out_of_the_loop = Inputs {
+            engage: false,
+            ..self.inputs()
+        };
+        at_rest
+            .tick(&out_of_the_loop, &mut shown)
             .map_err(|_| self.overflow("the start"))?;
         self.show(&shown, &at_rest);
         self.ft.clear();
@@ -53,9 +55,10 @@ impl Model for ArmController {
             .arm_law
             .ok_or_else(|| Refusal::new("a step before initialization"))?;
         let inputs = self.inputs();
+        let mut outputs = Outputs::default();
         for k in self.ticks.within(&step, self.T) {
-            let outputs = arm_law
-                .tick(&inputs)
+            arm_law
+                .tick(&inputs, &mut outputs)
                 .map_err(|_| self.overflow(&format!("tick {k}")))?;
             self.show(&outputs, &arm_law);
             self.tick = i32::try_from(k).unwrap_or(i32::MAX);
@@ -128,9 +131,9 @@ impl ArmController {
         self.engaged = outcome.engaged;
         self.slowed = *slowed;
         self.stiff_hand_seen = StiffHandSeen {
-            detected: stiff_hand.detected(),
-            D: stiff_hand.D().into(),
-            k_h: stiff_hand.k_h().into(),
+            detected: stiff_hand.detected,
+            D: stiff_hand.D.into(),
+            k_h: stiff_hand.k_h.into(),
         };
         self.ft.show(ft, &arm_law.bias());
         self.show_status(status);

@@ -3,20 +3,23 @@
 //! It knows no FMI: the FMU ArmController and the C library are shells around it.
 
 use crate::displacement::Origin;
-use crate::form::Form;
-use crate::joint_space::{JointGains, JointParameters, Nominal};
+use crate::joint_space::{JointGains, JointParameters, JointSpace, Nominal};
 use crate::kinematics::{Kinematics, Pose};
 use crate::limits::Limits;
 use crate::singularity::Singularity;
-use crate::stiff_hand::Detectors;
+use crate::space::InSpace;
+use crate::stiff_hand::{self, Detectors, StiffHandSeen};
 use crate::supervision::{self, Demand, Report, Status, Supervisor};
-use crate::task_space::Outcome;
+use crate::task_space::TaskSpace;
+use crate::wrench::conditioner::Made;
+use crate::wrench::frame::FixedFrame;
 use crate::wrench::{Conditioned, Conditioner, Frame, Sample, Sensor, Wrench};
 use admittance::hand::StiffHand;
 use admittance::{Bounds, Gains, Ledger, ParameterError, Reach, Real, Request, Settings, real};
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 
-pub use crate::form::Space;
+pub use crate::handle::{HandleTick, NotFinite};
+pub use crate::space::Space;
 
 /// What stays fixed while the law is in use, but for the gains.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -103,22 +106,35 @@ pub struct Outputs {
     /// Where the handle is.
     pub pose: Pose,
     /// What the law did.
-    pub outcome: Outcome,
+    pub outcome: HandleTick,
     /// The nominal in joint coordinates; in task space, where it has none, the robot at rest, M_n 0.
     pub nominal: Nominal,
     /// Whether the nominal is slowed before a singularity.
     pub slowed: bool,
     /// What is known of a stiff hand, after this tick.
-    pub stiff_hand: Detectors,
+    pub stiff_hand: StiffHandSeen,
     /// What the law knows of the hand: about the handle, in the base frame.
     pub ft: Conditioned,
     /// What supervision says; without it, that the law does what `engage` and `hold` say.
     pub status: Status,
 }
 
-/// A tick whose result is not finite: an input was not, or numbers overflow.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct NotFinite;
+impl Default for Outputs {
+    /// Of a law that has not had a tick.
+    fn default() -> Self {
+        let q = Vector3::zeros();
+        let pose = Kinematics::default().at(&q);
+        Self {
+            outcome: HandleTick::at_rest(&pose.p, false),
+            pose,
+            nominal: Nominal::at(&q, Matrix3::zeros()),
+            slowed: false,
+            stiff_hand: StiffHandSeen::default(),
+            ft: Conditioned::default(),
+            status: Status::of(Demand::Rest),
+        }
+    }
+}
 
 /// The law between two ticks.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -126,18 +142,19 @@ pub struct NotFinite;
 pub struct ArmLaw {
     kinematics: Kinematics,
     singularity: Singularity,
-    stiff_hand: Detectors,
-    frame: Frame,
-    conditioner: Conditioner,
-    form: Form,
+    frame: FixedFrame,
+    bounds: [Bounds; 3],
+    /// where angles and positions are counted from, if not from zero
+    origin: Option<Origin>,
+
     supervisor: Option<Supervisor>,
+    conditioner: Conditioner,
+    stiff_hand: Detectors,
+    law: InSpace,
     /// the joint angles of the last tick that had a result, rad
     q: Vector3<Real>,
     /// the nominal's velocity at the last tick at which it was free, in its own coordinates: m/s or rad/s
     v_n: Vector3<Real>,
-    bounds: [Bounds; 3],
-    /// where angles and positions are counted from, if not from zero
-    origin: Option<Origin>,
 }
 
 impl ArmLaw {
@@ -157,23 +174,23 @@ impl ArmLaw {
             kinematics: parameters.kinematics,
             singularity: parameters.singularity,
             stiff_hand: Detectors::new(parameters.stiff_hand, parameters.settings.T)?,
-            frame: parameters.frame,
+            frame: parameters.frame.fixed(),
             conditioner: Conditioner::new(parameters.sensor, parameters.settings.T)?,
-            form: match parameters.space {
-                Space::Task => Form::task(
+            law: match parameters.space {
+                Space::Task => InSpace::Task(TaskSpace::new(
                     parameters.settings,
                     parameters.gains,
                     parameters.bounds,
                     parameters.reach,
                     parameters.limits,
-                )?,
-                Space::Joint => Form::joint(
+                )?),
+                Space::Joint => InSpace::Joint(JointSpace::new(
                     parameters.settings,
                     &parameters.joint,
                     parameters.kinematics,
                     parameters.reach,
                     parameters.limits,
-                )?,
+                )?),
             },
             supervisor: parameters
                 .supervision
@@ -192,7 +209,7 @@ impl ArmLaw {
     /// # Errors
     /// The first gain out of its range; the gains stay as they were.
     pub fn tune(&mut self, gains: [Gains; 3]) -> Result<(), ParameterError> {
-        self.form.tune(gains)
+        self.law.tune(gains)
     }
 
     /// Other gains of the joints, likewise. In task space they are checked and have no effect.
@@ -200,7 +217,7 @@ impl ArmLaw {
     /// # Errors
     /// The first gain out of its range; the gains stay as they were.
     pub fn tune_joints(&mut self, gains: JointGains) -> Result<(), ParameterError> {
-        self.form.tune_joints(gains)
+        self.law.tune_joints(gains)
     }
 
     /// Counts from the joint angles `q_0` (rad) and from where the handle is there, from the next tick on: `q` of the
@@ -212,8 +229,9 @@ impl ArmLaw {
     /// # Errors
     /// A bound that the origin's distance rounds away; the origin stays as it was.
     pub fn count_from(&mut self, q_0: &Vector3<Real>) -> Result<(), ParameterError> {
-        let Form::Task(task_space) = &mut self.form else {
-            return Ok(());
+        let task_space = match &mut self.law {
+            InSpace::Task(law) => law,
+            InSpace::Joint(_) => return Ok(()),
         };
         let origin = Origin::new(&self.kinematics, q_0);
         let mut bounds = self.bounds;
@@ -238,6 +256,7 @@ impl ArmLaw {
         self.origin.map_or(*q, |origin| origin.q() + q)
     }
 
+    #[inline]
     fn pose(&self, q: &Vector3<Real>) -> Pose {
         match &self.origin {
             Some(origin) => origin.displaced(&self.kinematics, q),
@@ -245,140 +264,148 @@ impl ArmLaw {
         }
     }
 
-    /// One tick.
+    /// One tick. What came of it is written into `outputs`.
     ///
     /// # Errors
-    /// [`NotFinite`], without supervision; the law stays as it was before the tick. With supervision that is a fault with a
-    /// name and no torque.
-    pub fn tick(&mut self, inputs: &Inputs) -> Result<Outputs, NotFinite> {
-        let before = *self;
-        match self.supervisor {
-            Some(supervisor) => Ok(self.supervised(inputs, supervisor)),
-            None => {
-                let demand = if inputs.engage {
-                    Demand::Run {
-                        authority: 1.0,
-                        freedom: if inputs.hold { 0.0 } else { 1.0 },
-                    }
-                } else {
-                    Demand::Rest
-                };
-                let pose = self.pose(&inputs.q);
-                let ft = self.sensed(&pose, inputs);
-                self.run(&pose, &inputs.q, ft, demand)
-                    .inspect_err(|NotFinite| *self = before)
-            }
+    /// [`NotFinite`], without supervision; the law stays as it was before the tick, and `outputs` are not to be used. With
+    /// supervision that is a fault with a name and no torque.
+    pub fn tick(&mut self, inputs: &Inputs, outputs: &mut Outputs) -> Result<(), NotFinite> {
+        if self.supervisor.is_some() {
+            self.supervised(inputs, outputs);
+            return Ok(());
         }
+        let demand = match (inputs.engage, inputs.hold) {
+            (false, _) => Demand::Rest,
+            (true, hold) => Demand::Run {
+                authority: 1.0,
+                freedom: if hold { 0.0 } else { 1.0 },
+            },
+        };
+        outputs.pose = self.pose(&inputs.q);
+        let made = self.sensed(&inputs.q, inputs, outputs);
+        self.run(&inputs.q, demand, outputs)?;
+        self.conditioner.keep(&made);
+        outputs.status = Status::of(demand);
+        Ok(())
     }
 
     /// One tick in which supervision decides. What cannot be trusted does not reach the law: without joint angles it rests
     /// where it last knew the arm to be, without a force it feels none.
-    fn supervised(&mut self, inputs: &Inputs, mut supervisor: Supervisor) -> Outputs {
-        let before = *self;
-        let Inputs {
-            signals,
-            engage,
-            hold,
-            ..
-        } = *inputs;
+    fn supervised(&mut self, inputs: &Inputs, outputs: &mut Outputs) {
+        let signals = &inputs.signals;
         let is_known = inputs.q.iter().all(|q| q.is_finite());
         let q = if is_known { inputs.q } else { self.q };
-        let pose = self.pose(&q);
-        let ft = self.sensed(&pose, &Inputs { q, ..*inputs });
-        let demand = supervisor.step(&supervision::Inputs {
+        outputs.pose = self.pose(&q);
+        let made = self.sensed(&q, inputs, outputs);
+        let demand = self.decided(&supervision::Inputs {
             enable: signals.enable,
-            engage,
+            engage: inputs.engage,
             acknowledge: signals.acknowledge,
             emergency_stop: signals.emergency_stop,
-            hold,
+            hold: inputs.hold,
             heartbeat: signals.heartbeat,
-            ft_valid: ft.fault.is_none(),
+            ft_valid: outputs.ft.fault.is_none(),
             encoder_valid: signals.encoder_valid && is_known,
-            force: ft.hand.force.norm(),
+            force: outputs.ft.hand.force.norm(),
         });
 
         let is_seen = is_known && signals.encoder_valid;
         let ran = if demand == Demand::Rest && !is_seen {
-            Ok(self.abandon(ft))
+            self.abandon(outputs);
+            Ok(())
         } else {
-            self.run(&pose, &q, ft, demand)
+            self.run(&q, demand, outputs)
         };
-        let status = supervisor.judge(&ran.as_ref().map_or(Report::NOT_FINITE, |ran| Report {
-            finite: true,
-            debt: self.ledger().is_in_debt(),
-            outside_bounds: ran.outcome.outside_bounds,
-            saturated: ran.outcome.saturated,
-        }));
-        let ran = ran.unwrap_or_else(|NotFinite| {
-            *self = before;
-            self.abandon(ft)
-        });
-        self.supervisor = Some(supervisor);
-        Outputs { status, ..ran }
-    }
-
-    /// No torque, the nominal where the arm was last known to be.
-    fn abandon(&mut self, ft: Conditioned) -> Outputs {
-        let pose = self.pose(&self.q);
-        self.stiff_hand = self.stiff_hand.at_rest();
-        let (outcome, nominal) = self.form.abandon(&pose, &self.q);
-        Outputs {
-            outcome,
-            nominal,
-            pose,
-            slowed: false,
-            stiff_hand: self.stiff_hand,
-            ft,
-            status: Status::of(Demand::Rest),
+        let report = match ran {
+            Ok(()) => {
+                self.conditioner.keep(&made);
+                Report {
+                    finite: true,
+                    debt: self.ledger().is_in_debt(),
+                    outside_bounds: outputs.outcome.outside_bounds,
+                    saturated: outputs.outcome.saturated,
+                }
+            }
+            Err(NotFinite) => {
+                self.abandon(outputs);
+                Report::NOT_FINITE
+            }
+        };
+        if let Some(supervisor) = &mut self.supervisor {
+            outputs.status = supervisor.judge(&report);
         }
     }
 
-    /// What the law does at joint angles `q` (rad), where the handle is at `pose`, with the hand as it is known; judged by
-    /// nobody. After an error it is not as it was.
+    /// What supervision demands; without it, rest.
+    fn decided(&mut self, inputs: &supervision::Inputs) -> Demand {
+        match &mut self.supervisor {
+            Some(supervisor) => supervisor.step(inputs),
+            None => Demand::Rest,
+        }
+    }
+
+    /// No torque, the nominal where the arm was last known to be.
+    #[cold]
+    fn abandon(&mut self, outputs: &mut Outputs) {
+        let pose = self.pose(&self.q);
+        self.stiff_hand.rest();
+        self.law
+            .abandon(&pose, &self.q, &mut outputs.outcome, &mut outputs.nominal);
+        outputs.pose = pose;
+        outputs.slowed = false;
+        outputs.stiff_hand = self.stiff_hand.known();
+    }
+
+    /// What the law does at joint angles `q` (rad), with the pose and the hand in `outputs`; judged by nobody. After an error
+    /// it is as it was.
+    #[inline]
     fn run(
         &mut self,
-        pose: &Pose,
         q: &Vector3<Real>,
-        ft: Conditioned,
         demand: Demand,
-    ) -> Result<Outputs, NotFinite> {
-        let damping = if self.form.knows_singularities() {
+        outputs: &mut Outputs,
+    ) -> Result<(), NotFinite> {
+        let Outputs {
+            pose,
+            outcome,
+            nominal,
+            ft,
+            ..
+        } = outputs;
+        let damping = if self.law.knows_singularities() {
             self.singularity.damping(pose.sigma_min)
         } else {
             0.0
         };
-        let (outcome, nominal) = match demand {
+        match demand {
             Demand::Run { authority, freedom } => {
-                self.stiff_hand = self.stiff_hand.sensed(&pose.p, &ft.hand.force);
+                let f_h = &ft.hand.force;
+                let seen = self.stiff_hand.sensed(&pose.p, f_h);
+                let of_hand = seen
+                    .as_ref()
+                    .map_or_else(Vector3::zeros, stiff_hand::damping);
                 let request = Request {
                     authority,
                     hold: freedom <= 0.0,
-                    damping: Vector3::repeat(damping) + self.stiff_hand.D(),
+                    damping: Vector3::repeat(damping) + of_hand,
                     speed: self.speed(freedom),
                 };
-                self.form.step(pose, q, &ft.hand.force, &request)
+                self.law.step(pose, q, f_h, &request, outcome, nominal)?;
+                self.stiff_hand.keep(seen.as_ref());
+                if freedom >= 1.0 {
+                    self.v_n = *self.law.velocity(outcome, nominal);
+                }
             }
             Demand::Rest => {
-                self.stiff_hand = self.stiff_hand.at_rest();
-                self.form.rest(pose, q)
+                self.law.rest(pose, q, outcome, nominal)?;
+                self.stiff_hand.rest();
+                self.v_n = *self.law.velocity(outcome, nominal);
             }
-        };
-        if !(outcome.is_finite() && self.ledger().G().is_finite()) {
-            return Err(NotFinite);
         }
         self.q = *q;
-        if !matches!(demand, Demand::Run { freedom, .. } if freedom < 1.0) {
-            self.v_n = self.form.velocity(&outcome, &nominal);
-        }
-        Ok(Outputs {
-            pose: *pose,
-            outcome,
-            nominal,
-            slowed: demand != Demand::Rest && damping > 0.0,
-            stiff_hand: self.stiff_hand,
-            ft,
-            status: Status::of(demand),
-        })
+        outputs.slowed = demand != Demand::Rest && damping > 0.0;
+        outputs.stiff_hand = self.stiff_hand.known();
+        Ok(())
     }
 
     /// Speed in each of its coordinates that a nominal of this `freedom` may have, m/s or rad/s: it brakes in equal steps.
@@ -390,23 +417,26 @@ impl ArmLaw {
         }
     }
 
-    /// What the hand does, in the base frame.
-    fn sensed(&mut self, pose: &Pose, inputs: &Inputs) -> Conditioned {
-        let turn = self.frame.at(pose);
-        let ft = self.conditioner.step(&Sample {
+    /// What the hand does, with the pose in `outputs` and joint angles `q` (rad): into `outputs` in the base frame. What the
+    /// sensor's conditioning is to remember of it is returned.
+    #[inline]
+    fn sensed(&self, q: &Vector3<Real>, inputs: &Inputs, outputs: &mut Outputs) -> Made {
+        let turn = self.frame.at(&outputs.pose);
+        let made = self.conditioner.sampled(&Sample {
             wrench: inputs.hand,
             R: turn.R(),
-            q: self.absolute(&inputs.q),
+            q: self.absolute(q),
             valid: inputs.ft_valid,
             tare: inputs.tare,
         });
-        Conditioned {
+        outputs.ft = Conditioned {
             hand: Wrench {
-                force: turn.to_base(&ft.hand.force),
-                torque: turn.to_base(&ft.hand.torque),
+                force: turn.in_base(&made.hand.hand.force),
+                torque: turn.in_base(&made.hand.hand.torque),
             },
-            ..ft
-        }
+            ..made.hand
+        };
+        made
     }
 
     /// What the hand's force sensor reads when nothing acts on it, as far as a tare has found it; sensor frame.
@@ -416,6 +446,6 @@ impl ArmLaw {
 
     /// Energy stored and created, as of the last tick; the work is that at the joints.
     pub fn ledger(&self) -> &Ledger<3> {
-        self.form.ledger()
+        self.law.ledger()
     }
 }

@@ -77,6 +77,10 @@ pub enum Demand {
 
 /// The controller between two ticks.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[allow(
+    clippy::large_enum_variant,
+    reason = "one of them, once: a box would cost more than it saves"
+)]
 pub enum Controller {
     /// One of the four laws, torque form.
     Law(Admittance<1>),

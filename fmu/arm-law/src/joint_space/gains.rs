@@ -5,6 +5,7 @@
 //! joint: the springs' energy ½ k eᵀ K_P e is a sum over joints whatever M_n is.
 
 use admittance::parameters::{LIMIT, NOT_NEGATIVE, POSITIVE, check};
+use admittance::retune::Gradual;
 use admittance::{Gains, ParameterError, Real};
 use nalgebra::Vector3;
 
@@ -35,10 +36,8 @@ impl Default for JointGains {
     }
 }
 
-impl JointGains {
-    /// These gains one tick further on the straight way to `wanted`, of which `remaining` ticks are left (at least 1).
-    #[must_use]
-    pub fn toward(&self, wanted: &Self, remaining: u32) -> Self {
+impl Gradual for JointGains {
+    fn toward(&self, wanted: &Self, remaining: u32) -> Self {
         let joints = [0, 1, 2].map(|i| self.of(i).toward(&wanted.of(i), remaining));
         Self {
             D_n: Vector3::from(joints.map(|joint| joint.D_n)),
@@ -47,7 +46,9 @@ impl JointGains {
             tau_max: Vector3::from(joints.map(|joint| joint.f_max)),
         }
     }
+}
 
+impl JointGains {
     /// Joint `i` (from 0) for the rules of one axis. They look at ratios of masses, and M_n does not change with the gains.
     pub(super) fn of(&self, i: usize) -> Gains {
         Gains {

@@ -88,9 +88,9 @@ impl Arm {
                 .map_err(|_| inputs.why_not_finite())?;
         }
         let told = inputs.of_law(next.origin.counted(&q), self.source)?;
-        let outputs = next
-            .law
-            .tick(&told)
+        let mut outputs = law::Outputs::default();
+        next.law
+            .tick(&told, &mut outputs)
             .map_err(|law::NotFinite| inputs.why_not_finite())?;
         next.origin.ticked(outputs.outcome.engaged);
         *self = next;
