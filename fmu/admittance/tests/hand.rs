@@ -265,13 +265,21 @@ fn held(watch: &Watch, duration: f64, kick: f64, k_h: impl Fn(f64) -> f64) -> Ve
             let pushed = if t < 0.3 { kick } else { 0.0 };
             let f_h = pushed - k_h(t) * q;
             detector = detector.sensed(q, f_h, watch);
-            let gains = Gains {
-                D_n: gains.D_n + detector.D(),
-                ..gains
-            };
+            let D_n = gains.D_n + detector.D();
             let dq = (q - last) / T;
             let e = q_n - q;
-            let done = midpoint::coupled(&gains, 1.0, T, &Sample { e, v_n, dq, f_h });
+            let done = midpoint::coupled(
+                &gains,
+                1.0,
+                T,
+                &Sample {
+                    e,
+                    v_n,
+                    dq,
+                    f_h,
+                    D_n,
+                },
+            );
             let shown = (t, q, detector.D());
             last = q;
             q_n += T * done.v_m;

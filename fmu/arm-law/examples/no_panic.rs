@@ -29,8 +29,8 @@ use std::hint::black_box;
 
 #[cfg_attr(not(debug_assertions), no_panic::no_panic)]
 #[inline(never)]
-fn tick(arm: &mut ArmLaw, inputs: &Inputs) -> Result<Outputs, NotFinite> {
-    arm.tick(inputs)
+fn tick(arm: &mut ArmLaw, inputs: &Inputs, outputs: &mut Outputs) -> Result<(), NotFinite> {
+    arm.tick(inputs, outputs)
 }
 
 #[cfg_attr(not(debug_assertions), no_panic::no_panic)]
@@ -100,7 +100,9 @@ fn main() -> Result<(), ParameterError> {
             ..parameters
         }))?;
         arm.count_from(&inputs.q)?;
-        black_box(tick(&mut arm, &inputs)).ok();
+        let mut outputs = Outputs::default();
+        black_box(tick(&mut arm, &inputs, &mut outputs)).ok();
+        black_box(&outputs);
         arm.tune(parameters.gains)?;
         arm.tune_joints(parameters.joint.gains)?;
     }

@@ -1,12 +1,12 @@
 //! What the law of the arm is built from: parameters of ArmController.fmu and of the C library, one row each.
 
 use crate::choices::{JOINT, SPACE, TORQUE_LIMITING};
-use crate::form::Space;
 use crate::joint_space::{self, JointGains, JointParameters};
 use crate::kinematics::Kinematics;
 use crate::limits::{Limits, TorqueLimiting};
 use crate::nominal::NominalArm;
 use crate::singularity::Singularity;
+use crate::space::Space;
 use crate::supervision;
 use crate::wrench::Sensor;
 use admittance::advice::{Advice, advise};

@@ -65,7 +65,10 @@ fn a_tare_takes_the_bias_off_and_keeps_the_arm_where_it_is() {
         controller.inputs.ft_tare = k == 0;
         tick(&mut controller, k);
         let running = k < 499;
-        assert_eq!(controller.outputs.ft_tare_state, if running { 1 } else { 2 });
+        assert_eq!(
+            controller.outputs.ft_tare_state,
+            if running { 1 } else { 2 }
+        );
         assert_eq!(controller.outputs.ft_f_h, [0.0; 3]);
         assert_eq!(
             controller.outputs.ft_bias_force,
@@ -92,7 +95,10 @@ fn a_tare_that_fails_says_why() {
     });
     (0..500).for_each(|k| tick(&mut controller, k));
     assert_eq!(
-        (controller.outputs.ft_tare_state, controller.outputs.ft_tare_failure),
+        (
+            controller.outputs.ft_tare_state,
+            controller.outputs.ft_tare_failure
+        ),
         (3, 4)
     );
     assert_eq!(controller.outputs.ft_bias_force, [0.0; 3]);
@@ -130,6 +136,12 @@ fn before_the_first_tick_nothing_was_sensed() {
         c.inputs.f_h = [f64::NAN; 3];
         c.inputs.ft_tare = 1;
     });
-    assert_eq!((controller.outputs.ft_fault, controller.outputs.ft_tare_state), (0, 0));
+    assert_eq!(
+        (
+            controller.outputs.ft_fault,
+            controller.outputs.ft_tare_state
+        ),
+        (0, 0)
+    );
     assert_eq!(controller.outputs.ft_f_h, [0.0; 3]);
 }

@@ -83,7 +83,9 @@ fn hold_keeps_the_nominal_where_it_is_under_a_steady_push() {
 #[test]
 fn changed_gains_come_into_force_over_the_tuning_time() {
     let force_after = |tuning_time: f64, ticks: u32| {
-        let mut c = initialized(|c| (c.inputs.f_h, c.parameters.tuning_time) = ([0.0, 0.0, 4.0], tuning_time));
+        let mut c = initialized(|c| {
+            (c.inputs.f_h, c.parameters.tuning_time) = ([0.0, 0.0, 4.0], tuning_time)
+        });
         (0..50).for_each(|k| tick(&mut c, k));
         let before = c.outputs.f_a[2];
         (c.parameters.K, c.parameters.D_n) = ([2000.0; 3], [40.0; 3]);
@@ -107,7 +109,13 @@ fn a_bad_limit_is_refused_by_name_value_and_range() {
             "tau_rate_max[1] = -5: expected a value greater than 0",
         ),
         (
-            |c| (c.parameters.p_n_box, c.parameters.p_n_min[2], c.parameters.p_n_max[2]) = (true, 0.5, 0.5),
+            |c| {
+                (
+                    c.parameters.p_n_box,
+                    c.parameters.p_n_min[2],
+                    c.parameters.p_n_max[2],
+                ) = (true, 0.5, 0.5)
+            },
             "p_n_max[3] = 0.5: expected a value greater than the least one",
         ),
     ];

@@ -25,7 +25,10 @@ fn refusals_name_the_variable_in_either_space() {
             |c| c.parameters.space = 3,
             "space = 3: expected 1 (task), 2 (joint)".into(),
         ),
-        (|c| c.parameters.joint.K = 0.0, format!("joint.K = 0: {positive}")),
+        (
+            |c| c.parameters.joint.K = 0.0,
+            format!("joint.K = 0: {positive}"),
+        ),
         (
             |c| c.parameters.joint.K_P[1] = -1.0,
             format!("joint.K_P[2] = -1: {positive}"),
@@ -124,7 +127,11 @@ fn a_heavy_robot_follows_and_its_error_halves_when_K_doubles() {
             let f_h = [0.0, 0.0, 6.0 * (2.5 * t).sin()];
             close_the_loop(&mut c, &mut robot, k, f_h);
             if t > 3.0 {
-                largest = c.outputs.e_q.iter().fold(largest, |most, e| most.max(e.abs()));
+                largest = c
+                    .outputs
+                    .e_q
+                    .iter()
+                    .fold(largest, |most, e| most.max(e.abs()));
             }
         }
         assert!(c.outputs.tank >= 10.0 - 1e-9, "{}", c.outputs.tank); // rounding of its sums

@@ -32,9 +32,15 @@ fn refusals_name_the_variable_the_value_and_the_range() {
             ),
         ),
         (|c| c.parameters.law = 0, format!("law = 0: {LAWS}")),
-        (|c| c.parameters.delay = 2, "delay = 2: expected 0 or 1".into()),
+        (
+            |c| c.parameters.delay = 2,
+            "delay = 2: expected 0 or 1".into(),
+        ),
         (|c| c.parameters.T = 0.0, format!("T = 0: {positive}")),
-        (|c| c.parameters.alpha = -1.0, format!("alpha = -1: {not_negative}")),
+        (
+            |c| c.parameters.alpha = -1.0,
+            format!("alpha = -1: {not_negative}"),
+        ),
         (
             |c| c.parameters.dp_cutoff = -1.0,
             format!("dp_cutoff = -1: {not_negative}"),
@@ -43,7 +49,10 @@ fn refusals_name_the_variable_the_value_and_the_range() {
             |c| c.parameters.E_0 = -1.0,
             format!("energy.E_0 = -1: {not_negative}"),
         ),
-        (|c| c.parameters.dq_max[1] = 0.0, format!("dq_max[2] = 0: {positive}")),
+        (
+            |c| c.parameters.dq_max[1] = 0.0,
+            format!("dq_max[2] = 0: {positive}"),
+        ),
         (
             |c| c.parameters.ddq_max[0] = f64::NAN,
             "ddq_max[1] = NaN: expected a value greater than 0".into(),
@@ -60,7 +69,10 @@ fn refusals_name_the_variable_the_value_and_the_range() {
             |c| c.parameters.K[2] = f64::INFINITY,
             format!("K[3] = inf: {positive}"),
         ),
-        (|c| c.parameters.K_P[0] = f64::NAN, format!("K_P[1] = NaN: {positive}")),
+        (
+            |c| c.parameters.K_P[0] = f64::NAN,
+            format!("K_P[1] = NaN: {positive}"),
+        ),
         (
             |c| c.parameters.f_max[1] = -400.0,
             "f_max[2] = -400: expected a value greater than 0".into(),
@@ -147,7 +159,14 @@ fn a_step_before_initialization_is_refused() {
 fn a_result_that_is_not_finite_fails_the_step() {
     let cases: [Change; 4] = [
         |c| (c.parameters.law, c.parameters.K, c.inputs.f_h) = (1, [1e300; 3], [1e300; 3]),
-        |c| (c.parameters.law, c.parameters.K, c.inputs.f_h, c.parameters.torque_limiting) = (2, [1e300; 3], [1e300; 3], 2),
+        |c| {
+            (
+                c.parameters.law,
+                c.parameters.K,
+                c.inputs.f_h,
+                c.parameters.torque_limiting,
+            ) = (2, [1e300; 3], [1e300; 3], 2)
+        },
         |c| c.inputs.q = [f64::NAN, 0.0, 0.0],
         |c| (c.inputs.q[1], c.inputs.engage) = (f64::INFINITY, false),
     ];

@@ -75,7 +75,12 @@ fn its_parameters_are_refused_under_their_names() {
         refusal.to_string(),
         "stiff_hand.f_high = 0.5: expected a value greater than stiff_hand.f_low"
     );
-    let mut c = controller(|c| (c.parameters.stiff_hand.active, c.parameters.stiff_hand.f_high) = (true, 0.2 / T));
+    let mut c = controller(|c| {
+        (
+            c.parameters.stiff_hand.active,
+            c.parameters.stiff_hand.f_high,
+        ) = (true, 0.2 / T)
+    });
     let refusal = c.initialize(0.0, &mut Log::silent()).expect_err("refused");
     assert_eq!(
         refusal.to_string(),
