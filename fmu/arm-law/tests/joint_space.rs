@@ -102,7 +102,7 @@ fn rotors(rotor: [Real; 3]) -> NominalArm {
     };
     NominalArm {
         links: [nothing; 3],
-        rotor: rotor.into(),
+        rotor,
     }
 }
 

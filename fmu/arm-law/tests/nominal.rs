@@ -31,10 +31,7 @@ fn arms() -> impl Strategy<Value = NominalArm> {
         [link.clone(), link.clone(), link],
         [0.01..1.0, 0.01..1.0, 0.01..1.0_f64],
     )
-        .prop_map(|(links, rotor)| NominalArm {
-            links,
-            rotor: rotor.into(),
-        })
+        .prop_map(|(links, rotor)| NominalArm { links, rotor })
 }
 
 fn vectors(most: f64) -> impl Strategy<Value = Vector3<f64>> {
