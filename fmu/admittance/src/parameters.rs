@@ -129,9 +129,13 @@ impl fmt::Display for ParameterError {
 
 impl core::error::Error for ParameterError {}
 
-/// A limit that may be infinite, as one that a [`Range`] accepts.
+/// A limit that may be infinite, as one that a [`Range`] accepts; NaN stays what it is.
 pub fn limit(limit: Real) -> Real {
-    limit.min(Real::MAX)
+    if limit == Real::INFINITY {
+        Real::MAX
+    } else {
+        limit
+    }
 }
 
 /// Whether every parameter of `of` lies in the range that its row says, under the row's name.

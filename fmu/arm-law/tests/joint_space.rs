@@ -92,7 +92,7 @@ fn gains() -> impl Strategy<Value = JointGains> {
 /// Rotors so light that the links, and with them C_n, decide.
 fn swinging() -> NominalArm {
     NominalArm {
-        rotor: Vector3::repeat(0.02),
+        rotor: [0.02; 3],
         ..NominalArm::default()
     }
 }
@@ -110,7 +110,7 @@ fn rotors(rotor: [Real; 3]) -> NominalArm {
     };
     NominalArm {
         links: [nothing; 3],
-        rotor: rotor.into(),
+        rotor,
     }
 }
 
@@ -391,7 +391,7 @@ fn a_gain_out_of_range_is_refused_with_joint_and_value_and_the_gains_stay() {
             name: "joint.K_P",
             axis: Some(2),
             value: 0.0,
-            expected: Expected::Text("a finite value greater than 0"),
+            expected: Expected::Text("a finite value, at least 1e-6"),
         })
     );
     assert_eq!(joints, before);

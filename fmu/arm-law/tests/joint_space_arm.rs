@@ -83,7 +83,7 @@ proptest! {
     ) {
         let mut law = bounded(|joint| {
             joint.gains.K = K;
-            joint.arm.rotor = Vector3::repeat(rotor);
+            joint.arm.rotor = [rotor; 3];
         });
         let (mut q, mut acted) = (Vector3::from(START), false);
         for (i, (f_h, way)) in pushes.into_iter().enumerate() {
@@ -262,7 +262,7 @@ fn gains_bounds_and_arms_that_cannot_be_are_refused_and_the_gains_stay() {
         new(Law::PassiveBounded, &parameters).is_err()
     };
     assert!(refused(|joint| joint.arm = NominalArm {
-        rotor: Vector3::zeros(),
+        rotor: [0.0; 3],
         ..NominalArm::default()
     }));
     assert!(refused(|joint| joint.gains.K = 0.0));

@@ -234,7 +234,7 @@ fn of_joints(gains: &[Gains; 3]) -> JointGains {
 /// The nominal arm with all its masses and inertias times M_n/1 kg, a kilogram being about what its links have.
 fn scaled(M_n: f64) -> NominalArm {
     let mut arm = NominalArm::default();
-    arm.rotor *= M_n;
+    arm.rotor = arm.rotor.map(|inertia| inertia * M_n);
     for link in &mut arm.links {
         for x in [
             &mut link.m,

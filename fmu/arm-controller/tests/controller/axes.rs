@@ -72,9 +72,9 @@ fn without_limits_the_arm_equals_three_scalar_axes() {
                     ),
                     (
                         alone.f.x,
-                        alone.outputs.q_n.x,
-                        alone.outputs.dq_n.x,
-                        alone.outputs.e_nr.x,
+                        alone.q_n.x,
+                        alone.dq_n.x,
+                        alone.e_nr.x,
                         alone.dq.x
                     ),
                     "law {law}, tick {k}, axis {i}"

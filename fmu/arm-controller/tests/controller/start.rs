@@ -77,8 +77,7 @@ fn the_first_tick_engages_where_the_handle_is_whatever_q_was_when_initialized() 
 
 #[test]
 fn until_engage_is_true_there_is_no_torque_and_then_it_starts_at_the_handle() {
-    let mut controller =
-        initialized(|c| (c.inputs.engage, c.inputs.f_h) = (false, [0.0, 0.0, 8.0]));
+    let mut controller = initialized(|c| (c.inputs.engage, c.inputs.f_h) = (0, [0.0, 0.0, 8.0]));
     for k in 0..5 {
         controller.inputs.q[1] += 1e-4;
         tick(&mut controller, k);

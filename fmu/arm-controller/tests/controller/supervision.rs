@@ -10,7 +10,7 @@ use export::{Log, Model};
 /// Supervised, ready for an edge of engage after the ticks from 0 to 101.
 fn ready(change: impl FnOnce(&mut ArmController)) -> (ArmController, u32) {
     let mut c = initialized(|c| {
-        (c.parameters.supervision, c.inputs.enable, c.inputs.engage) = (true, true, false);
+        (c.parameters.supervision, c.inputs.enable, c.inputs.engage) = (1, 1, 0);
         c.parameters.supervisor.heartbeat_timeout = 0.0;
         change(c);
     });
@@ -205,7 +205,7 @@ fn without_supervision_its_inputs_do_nothing() {
             c.inputs.enable,
             c.inputs.acknowledge,
             c.inputs.emergency_stop,
-        ) = (true, true, true);
+        ) = (1, 1, 1);
         c.inputs.encoder_valid = 0;
         (
             c.parameters.supervisor.hold_enter,
