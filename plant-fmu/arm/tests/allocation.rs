@@ -14,7 +14,7 @@ fn a_step_allocates_nothing() {
         vacuum: true,
         ..ExoskeletonArm::default()
     };
-    plant.parameters.table.position = -0.38;
+    plant.parameters.table.z = -0.38;
     plant.parameters.payload_m = 5.0;
     plant.ft.noise = 0.1;
     let mut log = Log::silent();

@@ -12,7 +12,7 @@ use exoskeleton_arm::ExoskeletonArm;
 /// The arm 20 mm above a table on which 10 kg lie; the human presses the pad on it.
 fn pressing(F_max: f64) -> ExoskeletonArm {
     let mut arm = started(|arm| {
-        arm.parameters.table.position = -0.37710;
+        arm.parameters.table.z = -0.37710;
         arm.parameters.payload_m = 10.0;
         arm.parameters.vacuum.F_max = F_max;
     });
@@ -50,7 +50,7 @@ fn without_vacuum_nothing_is_gripped_and_without_a_payload_neither() {
     let mut arm = pressing(450.0);
     run(&mut arm, 1000, 1100);
     assert!(!arm.attached);
-    let mut none = started(|empty| empty.parameters.table.position = -0.37710);
+    let mut none = started(|empty| empty.parameters.table.z = -0.37710);
     none.f_h = [0.0, 0.0, -120.0];
     none.vacuum = true;
     run(&mut none, 0, 1100);

@@ -109,7 +109,7 @@ fn an_impossible_arm_is_refused_with_variable_value_and_range() {
     ] {
         assert_eq!(refused(change), text);
     }
-    let inside = refused(|arm| arm.parameters.table.position = -0.3);
+    let inside = refused(|arm| arm.parameters.table.z = -0.3);
     assert!(
         inside.starts_with("table.z = -0.3 m: expected -1000.0 to -0.357"),
         "{inside}"

@@ -10,8 +10,8 @@ use export::{Log, Model, Step};
 /// Falls on the table within 20 ms and slides on it toward the wall, with noise.
 fn busy(substep: f64) -> ExoskeletonArm {
     let mut arm = started(|arm| {
-        arm.parameters.table.position = -0.36;
-        arm.parameters.wall.position = 0.50;
+        arm.parameters.table.z = -0.36;
+        arm.parameters.wall.x = 0.50;
         arm.parameters.payload_m = 5.0;
         arm.parameters.payload_attached = true;
         arm.parameters.dq_start = [0.3, 0.1, -0.6];

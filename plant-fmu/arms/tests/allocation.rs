@@ -19,7 +19,7 @@ fn a_step_allocates_nothing() {
         right: side(-130.0),
         ..ExoskeletonArms::default()
     };
-    plant.parameters.table.position = -0.38;
+    plant.parameters.table.z = -0.38;
     plant.parameters.payload_m = 10.0;
     let mut log = Log::silent();
     plant.initialize(0.0, &mut log).unwrap();

@@ -5,11 +5,11 @@ use nalgebra::Vector3;
 use super::bond::{Bond, Ledger as BondLedger};
 use super::coupling::{Coupled, Coupling, SIGNS};
 use super::energy::{self, Balance};
-use crate::ParameterError;
 use crate::arm::drive::Drive;
 use crate::arm::payload::Event;
 use crate::arm::substep::Moved;
 use crate::arm::{self, Arm, Inputs, Start, solver};
+use crate::parameter::{ParameterError, in_range};
 
 /// What the two arms are made of.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -51,7 +51,7 @@ impl Pair {
     /// A parameter outside its range; a start beyond a stop or inside a surface.
     pub fn new(parameters: Parameters, start: &Start) -> Result<Self, ParameterError> {
         parameters.arm.check(start)?;
-        parameters.bond.check()?;
+        in_range(&parameters.bond)?;
         Ok(Self::start(parameters, start))
     }
 
