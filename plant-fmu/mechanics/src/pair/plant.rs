@@ -1,5 +1,6 @@
 //! The two arms as a plant: built, run, read.
 
+use declaration::Rows;
 use nalgebra::Vector3;
 
 use super::bond::{Bond, Ledger as BondLedger};
@@ -12,12 +13,14 @@ use crate::arm::{self, Arm, Inputs, Start, solver};
 use crate::parameter::{ParameterError, in_range};
 
 /// What the two arms are made of.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Rows)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Parameters {
     /// Each arm, with its table and wall; its `payload_m` is the whole payload, its `vacuum` one cup.
+    #[part]
     pub arm: arm::Parameters,
     /// What the payload ties together.
+    #[part(from = 37)]
     pub bond: Bond,
 }
 
