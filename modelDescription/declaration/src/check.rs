@@ -1,6 +1,6 @@
 //! A struct's values held against its rows.
 
-use crate::{Access, Causality, Enumeration, Variable};
+use crate::{Access, Causality, Enumeration, Unit, Variable, unit};
 
 /// A value that its row does not accept.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -13,6 +13,12 @@ pub struct Objection {
     pub value: f64,
     /// What was expected.
     pub expected: Expected,
+    /// Unit of the value and of the bounds.
+    pub unit: Unit,
+    /// Smallest value that the row accepts.
+    pub low: f64,
+    /// Largest value that the row accepts.
+    pub high: f64,
 }
 
 /// What a row accepts.
@@ -47,15 +53,34 @@ pub fn first<M>(
             let Some((value, expected)) = objection(model, row, i) else {
                 continue;
             };
+            let (unit, low, high) = bounds(row);
             return Err(Objection {
                 name: row.base_name(),
                 element: (row.len > 1).then_some(i + 1),
                 value,
                 expected,
+                unit,
+                low,
+                high,
             });
         }
     }
     Ok(())
+}
+
+/// Unit, smallest and largest accepted value of a row.
+fn bounds<M>(row: &Variable<M>) -> (Unit, f64, f64) {
+    match &row.access {
+        Access::Real { unit, range, .. } => (*unit, range.low, range.high),
+        Access::Integer { min, max, .. } => (unit::NONE, (*min).into(), (*max).into()),
+        Access::Enumeration { of, .. } => {
+            let item = |item: Option<&crate::Item>| item.map_or(f64::NAN, |item| item.value.into());
+            (unit::NONE, item(of.items.first()), item(of.items.last()))
+        }
+        Access::Boolean { .. } => (unit::NONE, 0.0, 1.0),
+        #[cfg(feature = "std")]
+        Access::String { .. } => (unit::NONE, f64::NAN, f64::NAN),
+    }
 }
 
 /// The value of element `i` and what was expected, if the row does not accept it.

@@ -36,6 +36,21 @@ use crate::variable::{Access, IN_ORDER, Variable};
 ///     x: u8,
 /// }
 /// ```
+///
+/// ```compile_fail
+/// #[derive(declaration::Rows)]
+/// struct Inner {
+///     /// There.
+///     #[input(0)]
+///     x: f64,
+/// }
+/// #[derive(declaration::Rows)]
+/// struct Outer {
+///     #[part(about = [("y", "not there")])]
+///     inner: Inner,
+/// }
+/// const ROWS: usize = <Outer as declaration::Rows>::ROWS.len();
+/// ```
 pub trait Rows: Sized + 'static {
     /// The rows, by number.
     const ROWS: &'static [Variable<Self>];
@@ -52,9 +67,14 @@ pub struct Part {
     pub from: u32,
     /// What comes before the rows' names.
     pub prefix: &'static str,
+    /// What some rows are in this whole, by their names: their descriptions here.
+    pub about: &'static [(&'static str, &'static str)],
 }
 
 /// Writes `rows` of the struct `S`, a part of `M`, into `all` from position `n` on; returns the position after the last.
+///
+/// # Panics
+/// When the part describes a row that is not there (at compile time: rows are constants).
 #[doc(hidden)]
 pub const fn lifted<M, S>(
     all: &mut [Variable<M>],
@@ -62,13 +82,36 @@ pub const fn lifted<M, S>(
     rows: &[Variable<S>],
     part: Part,
 ) -> usize {
-    let mut i = 0;
+    let (mut i, mut described) = (0, 0);
     while i < rows.len() {
         all[n] = in_whole(&rows[i], part);
+        let mut k = 0;
+        while k < part.about.len() {
+            let (name, about) = part.about[k];
+            if equal(name, rows[i].name) {
+                all[n].about = about;
+                described += 1;
+            }
+            k += 1;
+        }
         n += 1;
         i += 1;
     }
+    assert!(
+        described == part.about.len(),
+        "about names a row that is not there"
+    );
     n
+}
+
+/// Whether two texts are equal, also in a constant.
+pub const fn equal(a: &str, b: &str) -> bool {
+    let (a, b) = (a.as_bytes(), b.as_bytes());
+    let mut i = 0;
+    while i < a.len() && i < b.len() && a[i] == b[i] {
+        i += 1;
+    }
+    i == a.len() && i == b.len()
 }
 
 const fn in_whole<M, S>(row: &Variable<S>, part: Part) -> Variable<M> {

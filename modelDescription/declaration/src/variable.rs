@@ -43,6 +43,13 @@ pub struct Item {
     pub about: &'static str,
 }
 
+impl Item {
+    /// An item.
+    pub const fn new(value: i32, name: &'static str, about: &'static str) -> Self {
+        Self { value, name, about }
+    }
+}
+
 /// An enumeration type.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Enumeration {

@@ -49,7 +49,7 @@ struct Whole {
     H: f64,
     #[part(prefix = "left.")]
     left: Side,
-    #[part(prefix = "right.", from = 2)]
+    #[part(prefix = "right.", from = 2, about = [("contact", "Contact of the right.")])]
     right: Side,
     #[part(each, from = 4)]
     links: [Link; 3],
@@ -121,6 +121,31 @@ fn a_row_says_what_its_attribute_says() {
     assert!(whole()[6].is_tunable() && !whole()[7].is_tunable());
     assert_eq!(whole()[0].variability, Variability::Continuous);
     assert_eq!(whole()[1].variability, Variability::Discrete); // no Real
+}
+
+#[test]
+fn a_part_may_describe_a_row_anew() {
+    let about = [0, 1, 2, 3].map(|i: usize| whole()[i].about);
+    assert_eq!(
+        about,
+        ["Torque", "Contact", "Torque", "Contact of the right."]
+    );
+}
+
+#[test]
+fn an_objection_has_the_units_and_bounds_of_its_row() {
+    let refused = |change: fn(&mut Whole)| {
+        let mut model = Whole::default();
+        change(&mut model);
+        let objection =
+            check::first(&model, whole(), Causality::Parameter, false).expect_err("refused");
+        (objection.unit.name, objection.low, objection.high)
+    };
+    assert_eq!(refused(|m| m.links[2].x = 1.5), ("m", -1.0, 1.0));
+    assert_eq!(refused(|m| m.gain = 0.25), ("1", 0.5, f64::INFINITY));
+    assert_eq!(refused(|m| m.samples = -1), ("1", 0.0, f64::from(i32::MAX)));
+    assert_eq!(refused(|m| m.mode = 2), ("1", 1.0, 4.0));
+    assert_eq!(refused(|m| m.on = 2), ("1", 0.0, 1.0));
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! The encoders of the joints.
 
 use core::f64::consts::PI;
+use declaration::{Enumeration, Item, Rows, Start};
 use serde::{Deserialize, Serialize};
 
 /// `encoder.kind`: reads the true angle.
@@ -10,26 +11,38 @@ pub const MOTOR: i32 = 2;
 /// `encoder.kind`: bits on the joint, behind the gear.
 pub const JOINT: i32 = 3;
 
-/// An encoder on each joint. It has no clock: it shows the count of the instant.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Encoder {
-    /// Where it sits: [`IDEAL`], [`MOTOR`] or [`JOINT`].
-    pub kind: i32,
-    /// Counts per revolution of the motor.
-    pub counts: i32,
-    /// Bits per revolution of the joint.
-    pub bits: i32,
-}
+/// The type of `encoder.kind`.
+pub const ENCODER: Enumeration = Enumeration {
+    name: "EncoderKind",
+    about: "Where the encoders sit",
+    items: &[
+        Item::new(IDEAL, "ideal", "reads the true angle"),
+        Item::new(
+            MOTOR,
+            "motor",
+            "on the motor's shaft: encoder.counts times the gear ratio per revolution of the joint",
+        ),
+        Item::new(
+            JOINT,
+            "joint",
+            "on the joint: 2 to the power of encoder.bits per revolution",
+        ),
+    ],
+};
 
-impl Default for Encoder {
-    /// Ideal, as in the paper's experiments; 2000 counts or 17 bit otherwise.
-    fn default() -> Self {
-        Self {
-            kind: IDEAL,
-            counts: 2000,
-            bits: 17,
-        }
-    }
+/// An encoder on each joint. It has no clock: it shows the count of the instant. At the start ideal, as in the paper's
+/// experiments; 2000 counts or 17 bit otherwise.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, Rows, Start)]
+pub struct Encoder {
+    /// where the encoders sit
+    #[parameter(73, name = "encoder.kind", items = ENCODER, start = IDEAL)]
+    pub kind: i32,
+    /// counts per revolution of the motor, on the motor's side
+    #[parameter(74, name = "encoder.counts", integers = 1..=1_000_000_000, start = 2000)]
+    pub counts: i32,
+    /// bits per revolution of the joint, on the joint's side
+    #[parameter(75, name = "encoder.bits", integers = 1..=40, start = 17)]
+    pub bits: i32,
 }
 
 impl Encoder {

@@ -1,6 +1,7 @@
 //! The force sensor in the handle: it sees the human's force alone, in its own frame, at its own clock.
 
 use crate::noise::normal;
+use declaration::{Enumeration, Item, Rows, Start};
 use export::Step;
 use mechanics::arm::kinematics::Pose;
 use nalgebra::Vector3;
@@ -25,41 +26,64 @@ pub const DROPOUT: i32 = 5;
 /// A sample within this share of the period of a step's end belongs to the step: importers' times carry rounding.
 const SAME_INSTANT: f64 = 1e-3;
 
-/// What the sensor is like.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct ForceSensor {
-    /// Frame of the reading, bias and noise: [`BASE`] or [`SENSOR`].
-    pub frame: i32,
-    /// Constant error (N).
-    pub bias: [f64; 3],
-    /// Standard deviation of the white noise, on each axis (N).
-    pub noise: f64,
-    /// Which noise.
-    pub seed: i32,
-    /// Sample period (s).
-    pub T: f64,
-    /// Largest reading, on each axis (N).
-    pub range: f64,
-    /// How it fails: [`NONE`], [`STUCK`], [`NAN`], [`OVER_RANGE`] or [`DROPOUT`].
-    pub failure: i32,
-    /// When it fails (s): from the first sample on that is not earlier.
-    pub t_failure: f64,
-}
+/// The type of `ft.frame`.
+pub const FRAME: Enumeration = Enumeration {
+    name: "Frame",
+    about: "Frame in which the force sensor's components are given",
+    items: &[
+        Item::new(BASE, "base", "base frame: x forward, y to the left, z up"),
+        Item::new(
+            SENSOR,
+            "sensor",
+            "link 3's frame: x along the link, z up when the link is level; it turns with the link",
+        ),
+    ],
+};
 
-impl Default for ForceSensor {
-    /// A perfect sensor, sampled at 1 kHz.
-    fn default() -> Self {
-        Self {
-            frame: BASE,
-            bias: [0.0; 3],
-            noise: 0.0,
-            seed: 1,
-            T: 1e-3,
-            range: 500.0,
-            failure: NONE,
-            t_failure: 0.0,
-        }
-    }
+/// The type of `ft.failure`.
+pub const FAILURE: Enumeration = Enumeration {
+    name: "ForceSensorFailure",
+    about: "How the force sensor fails",
+    items: &[
+        Item::new(NONE, "none", "it does not"),
+        Item::new(STUCK, "stuck", "shows its last sound reading for ever"),
+        Item::new(NAN, "nan", "shows NaN on all axes"),
+        Item::new(
+            OVER_RANGE,
+            "over_range",
+            "shows the end of its range on all axes, on the side of the force",
+        ),
+        Item::new(DROPOUT, "dropout", "shows 0 on all axes"),
+    ],
+};
+
+/// What the sensor is like. At the start perfect, sampled at 1 kHz.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, Rows, Start)]
+pub struct ForceSensor {
+    /// frame of f_h_measured, ft.bias and the noise
+    #[parameter(76, name = "ft.frame", items = FRAME, start = BASE)]
+    pub frame: i32,
+    /// constant error of the force sensor, in the frame ft.frame
+    #[parameter(77, name = "ft.bias[i]", unit = NEWTON, range = -1e6..=1e6)]
+    pub bias: [f64; 3],
+    /// standard deviation of the force sensor's white noise, on each axis and sample
+    #[parameter(78, name = "ft.noise", unit = NEWTON, range = 0.0..=1e6)]
+    pub noise: f64,
+    /// which noise: the same seed gives the same noise, whatever the steps
+    #[parameter(79, name = "ft.seed", start = 1)]
+    pub seed: i32,
+    /// sample period of the force sensor; sample k is taken at startTime + k ft.T
+    #[parameter(80, name = "ft.T", unit = SECOND, range = 1e-6..=1e3, start = 1e-3)]
+    pub T: f64,
+    /// largest reading of the force sensor, on each axis
+    #[parameter(81, name = "ft.range", unit = NEWTON, range = 1e-3..=1e9, start = 500.0)]
+    pub range: f64,
+    /// how the force sensor fails
+    #[parameter(82, name = "ft.failure", items = FAILURE, start = NONE)]
+    pub failure: i32,
+    /// when the force sensor fails: from the first sample on that is not earlier
+    #[parameter(83, name = "ft.t_failure", unit = SECOND, range = -1e9..=1e9)]
+    pub t_failure: f64,
 }
 
 /// What the sensor shows.

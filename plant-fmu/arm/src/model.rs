@@ -1,21 +1,17 @@
 //! Initialize and step.
 
-use crate::{ExoskeletonArm, RigidBody};
+use crate::ExoskeletonArm;
+use crate::rows::{Outputs, RigidBody};
 use export::access::check_parameters;
 use export::{Log, Model, Refusal, Step};
-use mechanics::arm::{Arm, Inputs};
+use mechanics::arm::{Arm, Inputs, Parameters, Start};
 use nalgebra::{Matrix3, Vector3};
 
 impl Model for ExoskeletonArm {
     fn initialize(&mut self, start_time: f64, _log: &mut Log<'_>) -> Result<(), Refusal> {
         check_parameters(self)?;
-        let (parameters, start) = self.parameters.plant();
-        if start.attached && parameters.payload_m == 0.0 {
-            return Err(Refusal::new(
-                "payload.m = 0 kg, expected a mass greater than 0, since payload.attached = true",
-            ));
-        }
-        self.plant = Arm::new(parameters, &start).map_err(Refusal::new)?;
+        check_payload(&self.parameters, &self.start)?;
+        self.plant = Arm::new(self.parameters, &self.start).map_err(Refusal::new)?;
         self.sample(0, start_time);
         self.show();
         Ok(())
@@ -27,36 +23,43 @@ impl Model for ExoskeletonArm {
 
     fn step(&mut self, step: Step, log: &mut Log<'_>) -> Result<(), Refusal> {
         let (n, dt) = step.substeps(self.substep);
-        let inputs = Inputs {
-            tau_a: self.tau_a,
-            f_h: self.f_h,
-            f_d: self.f_d,
-            vacuum: self.vacuum,
-        };
         // The sensor samples after the first substep that does not end before its instant, in the pose of then.
         if let Some((k, after)) = self.ft.due(&step, self.reading.k) {
             let before = ((after / dt - 1e-6).ceil() as u32).clamp(1, n);
-            self.plant.advance(&inputs, before, dt);
+            self.plant.advance(&self.inputs, before, dt);
             self.sample(k, step.start_time);
-            self.plant.advance(&inputs, n - before, dt);
+            self.plant.advance(&self.inputs, n - before, dt);
         } else {
-            self.plant.advance(&inputs, n, dt);
+            self.plant.advance(&self.inputs, n, dt);
         }
-        let was_attached = self.attached;
+        let was_attached = self.outputs.attached;
         self.show();
-        if was_attached != self.attached {
-            let what = match (self.attached, self.vacuum) {
+        let Outputs {
+            q_joint,
+            dq,
+            p,
+            energy,
+            attached,
+            ..
+        } = &self.outputs;
+        let Inputs {
+            tau_a,
+            f_h,
+            f_d,
+            vacuum,
+        } = self.inputs;
+        if was_attached != *attached {
+            let what = match (attached, vacuum) {
                 (true, _) => "payload gripped",
                 (false, false) => "payload released",
                 (false, true) => "payload lost: the bond broke",
             };
             log.event(format_args!("{what} before t = {} s", step.t + step.h));
         }
-        if !(self.energy.residual.is_finite() && self.p.iter().all(|p| p.is_finite())) {
+        if !(energy.residual.is_finite() && p.iter().all(|p| p.is_finite())) {
             return Err(Refusal(format!(
-                "motion left the range of numbers: q_joint = {:?} rad, dq = {:?} rad/s, \
-                 after tau_a = {:?} N.m, f_h = {:?} N, f_d = {:?} N",
-                self.q_joint, self.dq, self.tau_a, self.f_h, self.f_d
+                "motion left the range of numbers: q_joint = {q_joint:?} rad, dq = {dq:?} rad/s, \
+                 after tau_a = {tau_a:?} N.m, f_h = {f_h:?} N, f_d = {f_d:?} N",
             )));
         }
         Ok(())
@@ -66,7 +69,7 @@ impl Model for ExoskeletonArm {
 impl ExoskeletonArm {
     /// The force sensor takes sample `k`, of the force that is held and in the pose of the plant.
     fn sample(&mut self, k: u64, start_time: f64) {
-        let (f_h, pose) = (Vector3::from(self.f_h), &self.plant.place().pose);
+        let (f_h, pose) = (Vector3::from(self.inputs.f_h), &self.plant.place().pose);
         self.reading = self.ft.sample(k, start_time, &f_h, pose, self.reading);
     }
 
@@ -74,27 +77,43 @@ impl ExoskeletonArm {
     fn show(&mut self) {
         let (plant, place) = (&self.plant, self.plant.place());
         let (q, dq, shown) = (plant.q(), plant.dq(), plant.shown());
-        self.q = core::array::from_fn(|i| self.encoder.read(q[i], self.parameters.gear[i]));
-        self.q_joint = q.into();
-        self.dq = dq.into();
-        self.p = place.handle.p.into();
-        self.dp = (place.handle.J * dq).into();
-        self.p_pad = place.pad.p.into();
-        self.f_h_measured = self.reading.f;
-        self.f_e = shown.f_e.into();
-        self.tau_applied = plant.tau_applied().into();
-        self.tau_f = shown.tau_f.into();
-        self.attached = plant.attached();
-        self.contact = plant.contact();
-        self.tension = plant.tension();
-        self.energy = plant.energy();
         let body = plant.body();
-        self.rigid_body = RigidBody {
-            M: rows(&body.M),
-            C_dq: (body.C(&dq) * dq).into(),
-            g: body.g.into(),
+        let gear = &self.parameters.masses.gear;
+        self.outputs = Outputs {
+            q: core::array::from_fn(|i| self.encoder.read(q[i], gear[i])),
+            dq: dq.into(),
+            p: place.handle.p.into(),
+            dp: (place.handle.J * dq).into(),
+            f_e: shown.f_e.into(),
+            tau_applied: plant.tau_applied().into(),
+            tau_f: shown.tau_f.into(),
+            q_joint: q.into(),
+            p_pad: place.pad.p.into(),
+            tension: plant.tension(),
+            energy: plant.energy(),
+            rigid_body: RigidBody {
+                M: rows(&body.M),
+                C_dq: (body.C(&dq) * dq).into(),
+                g: body.g.into(),
+            },
+            f_h_measured: self.reading.f,
+            attached: plant.attached(),
+            contact: plant.contact(),
         };
     }
+}
+
+/// A payload that hangs at the pad from the start on has a mass.
+///
+/// # Errors
+/// It has none.
+pub fn check_payload(parameters: &Parameters, start: &Start) -> Result<(), Refusal> {
+    if start.attached && parameters.payload_m == 0.0 {
+        return Err(Refusal::new(
+            "payload.m = 0 kg, expected a mass greater than 0, since payload.attached = true",
+        ));
+    }
+    Ok(())
 }
 
 /// The elements row by row.

@@ -9,12 +9,10 @@ static ALLOCATOR: Counting = Counting;
 
 #[test]
 fn a_step_allocates_nothing() {
-    let mut plant = ExoskeletonArm {
-        f_h: [20.0, 10.0, -150.0],
-        vacuum: true,
-        ..ExoskeletonArm::default()
-    };
-    plant.parameters.table.position = -0.38;
+    let mut plant = ExoskeletonArm::default();
+    plant.inputs.f_h = [20.0, 10.0, -150.0];
+    plant.inputs.vacuum = true;
+    plant.parameters.table.z = -0.38;
     plant.parameters.payload_m = 5.0;
     plant.ft.noise = 0.1;
     let mut log = Log::silent();
@@ -32,7 +30,7 @@ fn a_step_allocates_nothing() {
         }
     });
     assert_eq!(n, 0);
-    assert!(plant.attached && plant.energy.loss_surface > 0.0); // landed and gripped on the way
+    assert!(plant.outputs.attached && plant.outputs.energy.loss_surface > 0.0); // landed and gripped on the way
     let (n, _) = allocations(|| std::hint::black_box(Box::new(0)));
     assert_eq!(n, 1); // it does count
 }

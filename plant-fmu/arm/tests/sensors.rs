@@ -32,15 +32,15 @@ fn an_encoder_shows_the_nearest_of_its_counts() {
             arm.encoder.kind = kind;
             arm.encoder.counts = n;
             arm.encoder.bits = bits;
-            arm.parameters.q_start = [0.2, -1.3, 1.1];
+            arm.start.q = [0.2, -1.3, 1.1];
         });
-        arm.f_h = [150.0, 80.0, 90.0];
+        arm.inputs.f_h = [150.0, 80.0, 90.0];
         let mut seen = 0;
         for k in 0..200 {
             step(&mut arm, f64::from(k) * 1e-3, 1e-3);
             for (i, per_turn) in counts(kind, n, bits).into_iter().enumerate() {
-                let turns = arm.q_joint[i] * per_turn / (2.0 * PI);
-                let count = arm.q[i] * per_turn / (2.0 * PI);
+                let turns = arm.outputs.q_joint[i] * per_turn / (2.0 * PI);
+                let count = arm.outputs.q[i] * per_turn / (2.0 * PI);
                 // 2e6 counts in double precision.
                 assert!((count - count.round()).abs() < 1e-9, "{count}");
                 assert!((count - turns).abs() <= 0.5 + 1e-9, "{count} {turns}");
@@ -58,7 +58,7 @@ fn an_encoder_shows_the_nearest_of_its_counts() {
 fn resolutions_are_those_of_the_specification() {
     let resolution = |change: fn(&mut ExoskeletonArm)| {
         let arm = started(change);
-        [0, 1, 2].map(|i| arm.encoder.resolution(arm.parameters.gear[i]))
+        [0, 1, 2].map(|i| arm.encoder.resolution(arm.parameters.masses.gear[i]))
     };
     let near = |a: [f64; 3], b: [f64; 3]| a.iter().zip(b).all(|(a, b)| (a / b - 1.0).abs() < 1e-15);
     let motor = [708_000.0, 1_200_000.0, 708_000.0].map(|n| 2.0 * PI / n);
@@ -84,26 +84,26 @@ fn in_its_own_frame_the_sensor_turns_with_link_3() {
     let mut arm = started(|arm| {
         arm.ft.frame = SENSOR;
         arm.ft.bias = [0.1, 0.2, 0.3];
-        arm.parameters.q_start = [0.4, -1.2, 1.0];
-        arm.f_h = f_h;
+        arm.start.q = [0.4, -1.2, 1.0];
+        arm.inputs.f_h = f_h;
     });
-    let first = arm.f_h_measured;
+    let first = arm.outputs.f_h_measured;
     for k in 0..300 {
-        let expected =
-            link_3(arm.q_joint).transpose() * Vector3::from(f_h) + Vector3::new(0.1, 0.2, 0.3);
+        let expected = link_3(arm.outputs.q_joint).transpose() * Vector3::from(f_h)
+            + Vector3::new(0.1, 0.2, 0.3);
         // Rounding of 162 N.
-        assert!((Vector3::from(arm.f_h_measured) - expected).amax() < 1e-12);
+        assert!((Vector3::from(arm.outputs.f_h_measured) - expected).amax() < 1e-12);
         step(&mut arm, f64::from(k) * 1e-3, 1e-3);
     }
-    assert!((arm.f_h_measured[0] - first[0]).abs() > 5.0); // it did turn
+    assert!((arm.outputs.f_h_measured[0] - first[0]).abs() > 5.0); // it did turn
 }
 
 #[test]
 fn in_the_base_frame_the_reading_does_not_turn() {
-    let mut arm = started(|arm| arm.f_h = [60.0, -90.0, 120.0]);
+    let mut arm = started(|arm| arm.inputs.f_h = [60.0, -90.0, 120.0]);
     run(&mut arm, 0, 300);
-    assert!((arm.q_joint[0] - arm.parameters.q_start[0]).abs() > 0.01);
-    assert_eq!(arm.f_h_measured, [60.0, -90.0, 120.0]);
+    assert!((arm.outputs.q_joint[0] - arm.start.q[0]).abs() > 0.01);
+    assert_eq!(arm.outputs.f_h_measured, [60.0, -90.0, 120.0]);
 }
 
 #[test]
@@ -114,12 +114,12 @@ fn noise_has_its_mean_deviation_and_seed() {
             arm.ft.noise = 0.2;
             arm.ft.bias = [0.5, 0.0, 0.0];
             arm.ft.seed = seed;
-            arm.f_h[1] = 1.0;
+            arm.inputs.f_h[1] = 1.0;
         });
         (0..N)
             .map(|k| {
                 step(&mut arm, f64::from(k) * 1e-3, 1e-3);
-                arm.f_h_measured
+                arm.outputs.f_h_measured
             })
             .collect::<Vec<_>>()
     };
@@ -157,7 +157,7 @@ fn samples_belong_to_the_sensors_clock_whatever_the_steps() {
             let mut arm = started(|arm| {
                 arm.ft.noise = 1.0;
                 arm.ft.T = period;
-                arm.f_h = [1.0; 3];
+                arm.inputs.f_h = [1.0; 3];
             });
             let mut t = 0.0;
             for k in 0..(0.3 / h) as u32 {
@@ -167,7 +167,7 @@ fn samples_belong_to_the_sensors_clock_whatever_the_steps() {
                 let sample = (f64::from(k + 1) * h / period + 1e-6).floor() as u64;
                 let expected: [f64; 3] = [0, 1, 2].map(|axis| 1.0 + normal(1, sample, axis));
                 assert_eq!(
-                    arm.f_h_measured, expected,
+                    arm.outputs.f_h_measured, expected,
                     "T = {period}, h = {h}, step {k}"
                 );
             }
@@ -179,10 +179,10 @@ fn samples_belong_to_the_sensors_clock_whatever_the_steps() {
 fn between_samples_the_reading_holds() {
     let mut arm = started(|arm| arm.ft.T = 0.01);
     for k in 0..40 {
-        arm.f_h[0] = f64::from(k); // held in the step that begins at k ms
+        arm.inputs.f_h[0] = f64::from(k); // held in the step that begins at k ms
         step(&mut arm, f64::from(k) * 1e-3, 1e-3);
         let sampled = if k < 9 { 0 } else { (k + 1) / 10 * 10 - 1 };
-        assert_eq!(arm.f_h_measured[0], f64::from(sampled), "{k}");
+        assert_eq!(arm.outputs.f_h_measured[0], f64::from(sampled), "{k}");
     }
 }
 
@@ -191,24 +191,24 @@ fn a_sample_inside_a_long_step_sees_the_pose_of_its_instant() {
     let swinging = || {
         started(|arm| {
             arm.ft.frame = SENSOR;
-            arm.f_h = [60.0, -90.0, 120.0];
-            arm.parameters.dq_start = [1.0, 0.5, -0.5];
+            arm.inputs.f_h = [60.0, -90.0, 120.0];
+            arm.start.dq = [1.0, 0.5, -0.5];
         })
     };
     let (mut long, mut short) = (swinging(), swinging());
     step(&mut long, 0.0, 1.5e-3);
     step(&mut short, 0.0, 1e-3);
-    assert_eq!(long.f_h_measured, short.f_h_measured); // both of sample 1, at 1 ms, substeps of 0.1 ms
-    let at_end = link_3(long.q_joint).transpose() * Vector3::from(long.f_h);
-    assert!((Vector3::from(long.f_h_measured) - at_end).amax() > 1e-3);
+    assert_eq!(long.outputs.f_h_measured, short.outputs.f_h_measured); // both of sample 1, at 1 ms, substeps of 0.1 ms
+    let at_end = link_3(long.outputs.q_joint).transpose() * Vector3::from(long.inputs.f_h);
+    assert!((Vector3::from(long.outputs.f_h_measured) - at_end).amax() > 1e-3);
 }
 
 #[test]
 fn readings_end_at_the_range() {
     let mut arm = started(|arm| arm.ft.range = 20.0);
-    arm.f_h = [30.0, -25.0, 19.0];
+    arm.inputs.f_h = [30.0, -25.0, 19.0];
     run(&mut arm, 0, 1);
-    assert_eq!(arm.f_h_measured, [20.0, -20.0, 19.0]);
+    assert_eq!(arm.outputs.f_h_measured, [20.0, -20.0, 19.0]);
 }
 
 #[test]
@@ -220,9 +220,9 @@ fn each_failure_begins_at_its_sample_and_shows_what_it_says() {
             arm.ft.range = 50.0;
         });
         for k in 1..=20 {
-            arm.f_h = [f64::from(k), -f64::from(k), 1.0];
+            arm.inputs.f_h = [f64::from(k), -f64::from(k), 1.0];
             step(&mut arm, f64::from(k - 1) * 1e-3, 1e-3);
-            let (sound, shown) = (arm.f_h, arm.f_h_measured);
+            let (sound, shown) = (arm.inputs.f_h, arm.outputs.f_h_measured);
             match failure {
                 _ if k < 10 => assert_eq!(shown, sound),
                 STUCK => assert_eq!(shown, [9.0, -9.0, 1.0]),
@@ -232,7 +232,13 @@ fn each_failure_begins_at_its_sample_and_shows_what_it_says() {
             }
         }
         // The plant feels the force itself.
-        assert!(arm.p.iter().chain(&arm.dq).all(|x| x.is_finite()));
+        assert!(
+            arm.outputs
+                .p
+                .iter()
+                .chain(&arm.outputs.dq)
+                .all(|x| x.is_finite())
+        );
     }
 }
 
@@ -241,8 +247,9 @@ fn a_failure_can_be_there_from_the_start() {
     let shown = |failure| {
         started(|arm| {
             arm.ft.failure = failure;
-            arm.f_h = [4.0, -4.0, 0.0];
+            arm.inputs.f_h = [4.0, -4.0, 0.0];
         })
+        .outputs
         .f_h_measured
     };
     assert_eq!(shown(STUCK), [4.0, -4.0, 0.0]);
@@ -253,9 +260,9 @@ fn a_failure_can_be_there_from_the_start() {
 
 #[test]
 fn sensors_do_not_touch_the_plant() {
-    let mut ideal = started(|arm| arm.f_h = [40.0, -50.0, 60.0]);
+    let mut ideal = started(|arm| arm.inputs.f_h = [40.0, -50.0, 60.0]);
     let mut bad = started(|arm| {
-        arm.f_h = [40.0, -50.0, 60.0];
+        arm.inputs.f_h = [40.0, -50.0, 60.0];
         arm.encoder.kind = JOINT;
         arm.encoder.bits = 14;
         arm.ft.noise = 3.0;
@@ -266,5 +273,5 @@ fn sensors_do_not_touch_the_plant() {
     run(&mut ideal, 0, 300);
     run(&mut bad, 0, 300);
     assert_eq!(ideal.plant, bad.plant);
-    assert!(ideal.energy.work_f_h > 0.1);
+    assert!(ideal.outputs.energy.work_f_h > 0.1);
 }

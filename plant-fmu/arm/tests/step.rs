@@ -10,19 +10,19 @@ use export::{Log, Model, Step};
 /// Falls on the table within 20 ms and slides on it toward the wall, with noise.
 fn busy(substep: f64) -> ExoskeletonArm {
     let mut arm = started(|arm| {
-        arm.parameters.table.position = -0.36;
-        arm.parameters.wall.position = 0.50;
+        arm.parameters.table.z = -0.36;
+        arm.parameters.wall.x = 0.50;
         arm.parameters.payload_m = 5.0;
-        arm.parameters.payload_attached = true;
-        arm.parameters.dq_start = [0.3, 0.1, -0.6];
+        arm.start.attached = true;
+        arm.start.dq = [0.3, 0.1, -0.6];
         arm.ft.noise = 0.5;
         arm.ft.frame = SENSOR;
         arm.substep = substep;
     });
-    arm.vacuum = true;
-    arm.tau_a = [20.0, 15.0, 10.0];
-    arm.f_h = [120.0, 10.0, -30.0];
-    arm.f_d = [0.0, 3.0, 0.0];
+    arm.inputs.vacuum = true;
+    arm.inputs.tau_a = [20.0, 15.0, 10.0];
+    arm.inputs.f_h = [120.0, 10.0, -30.0];
+    arm.inputs.f_d = [0.0, 3.0, 0.0];
     arm
 }
 
@@ -34,7 +34,7 @@ fn one_step_of_10_ms_equals_ten_of_1_ms_bit_for_bit() {
         run(&mut ten, 10 * k, 10 * k + 10);
         assert_eq!(bytes(&one), bytes(&ten), "{k}");
     }
-    assert!(one.energy.loss_surface > 0.0 && one.energy.loss_rub > 0.0);
+    assert!(one.outputs.energy.loss_surface > 0.0 && one.outputs.energy.loss_rub > 0.0);
 }
 
 #[test]
@@ -42,16 +42,19 @@ fn a_step_ends_exactly_at_its_end_whatever_its_length() {
     // Yaw without friction, gravity or inertia coupling: q₁ = dq₁ h, so a missing or extra substep would show.
     for h in [1e-9, 0.99e-4, 1.01e-4, 1e-3, 0.001_500_000_000_1, 0.123_456] {
         let mut arm = started(|arm| {
-            arm.parameters.friction.F_c = [0.0; 3];
-            arm.parameters.friction.F_s = [0.0; 3];
-            arm.parameters.friction.b = [0.0; 3];
-            arm.parameters.gravity = [0.0; 3];
-            arm.parameters.gear = [1e4; 3]; // rotors of 2 000 kg·m² keep the speed
-            arm.parameters.dq_start = [0.25, 0.0, 0.0];
+            for joint in &mut arm.parameters.friction {
+                (joint.F_c, joint.F_s, joint.b) = (0.0, 0.0, 0.0);
+            }
+            arm.parameters.masses.gravity = [0.0; 3];
+            arm.parameters.masses.gear = [1e4; 3]; // rotors of 2 000 kg·m² keep the speed
+            arm.start.dq = [0.25, 0.0, 0.0];
         });
         step(&mut arm, 0.0, h);
         // Centrifugal torque 0.25² · 1 kg·m² on 2 000 kg·m² for 0.12 s.
-        assert!((arm.q_joint[0] / (0.25 * h) - 1.0).abs() < 1e-6, "{h}");
+        assert!(
+            (arm.outputs.q_joint[0] / (0.25 * h) - 1.0).abs() < 1e-6,
+            "{h}"
+        );
     }
 }
 
@@ -59,9 +62,22 @@ fn a_step_ends_exactly_at_its_end_whatever_its_length() {
 fn inputs_set_after_a_step_change_no_output_before_the_next() {
     let mut arm = busy(1e-4);
     run(&mut arm, 0, 10);
-    let shown = |arm: &ExoskeletonArm| (arm.q, arm.dp, arm.f_h_measured, arm.tau_applied, arm.f_e);
+    let shown = |arm: &ExoskeletonArm| {
+        (
+            arm.outputs.q,
+            arm.outputs.dp,
+            arm.outputs.f_h_measured,
+            arm.outputs.tau_applied,
+            arm.outputs.f_e,
+        )
+    };
     let before = shown(&arm);
-    (arm.tau_a, arm.f_h, arm.f_d, arm.vacuum) = ([50.0; 3], [9.0; 3], [9.0; 3], false);
+    (
+        arm.inputs.tau_a,
+        arm.inputs.f_h,
+        arm.inputs.f_d,
+        arm.inputs.vacuum,
+    ) = ([50.0; 3], [9.0; 3], [9.0; 3], false);
     assert_eq!(shown(&arm), before);
     run(&mut arm, 10, 11);
     assert_ne!(shown(&arm), before);
@@ -71,13 +87,13 @@ fn inputs_set_after_a_step_change_no_output_before_the_next() {
 fn each_input_books_its_own_work() {
     let push = |tau_a: f64, f_h: f64, f_d: f64| {
         let mut arm = started(|_| ());
-        (arm.tau_a[0], arm.f_h[1], arm.f_d[1]) = (tau_a, f_h, f_d);
+        (arm.inputs.tau_a[0], arm.inputs.f_h[1], arm.inputs.f_d[1]) = (tau_a, f_h, f_d);
         run(&mut arm, 0, 200);
-        assert!(arm.dq[0] > 0.0 && arm.p[1] > 0.0);
+        assert!(arm.outputs.dq[0] > 0.0 && arm.outputs.p[1] > 0.0);
         [
-            arm.energy.work_tau,
-            arm.energy.work_f_h,
-            arm.energy.work_f_d,
+            arm.outputs.energy.work_tau,
+            arm.outputs.energy.work_f_h,
+            arm.outputs.energy.work_f_d,
         ]
         .map(|work| work > 0.0)
     };
@@ -90,16 +106,16 @@ fn each_input_books_its_own_work() {
 fn the_torque_lags_by_its_corner_frequency() {
     let mut arm = started(|arm| arm.parameters.drive_cutoff = 100.0);
     let mut direct = started(|arm| arm.parameters.drive_cutoff = 0.0);
-    (arm.tau_a, direct.tau_a) = ([8.0, -4.0, 2.0], [8.0, -4.0, 2.0]);
+    (arm.inputs.tau_a, direct.inputs.tau_a) = ([8.0, -4.0, 2.0], [8.0, -4.0, 2.0]);
     for k in 1..=10 {
         run(&mut arm, k - 1, k);
         run(&mut direct, k - 1, k);
         let share = 1.0 - (-2.0 * core::f64::consts::PI * 100.0 * f64::from(k) * 1e-3).exp();
-        for (tau, asked) in arm.tau_applied.into_iter().zip(arm.tau_a) {
+        for (tau, asked) in arm.outputs.tau_applied.into_iter().zip(arm.inputs.tau_a) {
             // Rounding of at most 100 substeps.
             assert!((tau - asked * share).abs() < 1e-13 * 100.0, "{tau} {k}");
         }
-        assert_eq!(direct.tau_applied, direct.tau_a);
+        assert_eq!(direct.outputs.tau_applied, direct.inputs.tau_a);
     }
 }
 
@@ -110,9 +126,9 @@ fn the_energy_residual_halves_with_the_substep_and_stays_below_a_percent() {
         let mut worst: f64 = 0.0;
         for k in 0..600 {
             step(&mut arm, f64::from(k) * 1e-3, 1e-3);
-            worst = worst.max(arm.energy.residual.abs());
+            worst = worst.max(arm.outputs.energy.residual.abs());
         }
-        let e = arm.energy;
+        let e = arm.outputs.energy;
         let throughput = e.work_tau.abs() + e.work_f_h.abs() + e.work_f_d.abs();
         assert!(
             throughput > 1.0 && worst < 0.01 * throughput,
@@ -128,7 +144,7 @@ fn the_energy_residual_halves_with_the_substep_and_stays_below_a_percent() {
 fn a_saved_state_continues_bit_for_bit() {
     let mut arm = busy(1e-4);
     run(&mut arm, 0, 40);
-    assert!(arm.contact);
+    assert!(arm.outputs.contact);
     let mut restored: ExoskeletonArm = postcard::from_bytes(&bytes(&arm)).unwrap();
     run(&mut arm, 40, 400);
     run(&mut restored, 40, 400);
@@ -147,7 +163,7 @@ fn refused(arm: &mut ExoskeletonArm, h: f64) -> String {
 #[test]
 fn a_force_that_leaves_the_range_of_numbers_fails_the_step_and_is_named() {
     let mut arm = started(|_| ());
-    arm.f_h[0] = 1e308;
+    arm.inputs.f_h[0] = 1e308;
     let text = refused(&mut arm, 1.0);
     assert!(
         text.starts_with("motion left the range of numbers: q_joint = "),

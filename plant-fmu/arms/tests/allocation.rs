@@ -1,26 +1,25 @@
 //! The step uses no heap.
 
 use counting::{Counting, allocations};
-use exoskeleton_arms::{ExoskeletonArms, Side};
+use exoskeleton_arms::ExoskeletonArms;
 use export::{Log, Model, Step};
+use mechanics::arm::Inputs;
 
 #[global_allocator]
 static ALLOCATOR: Counting = Counting;
 
 #[test]
 fn a_step_allocates_nothing() {
-    let side = |push: f64| Side {
+    let side = |push: f64| Inputs {
         f_h: [20.0, 10.0, push],
         vacuum: true,
-        ..Side::default()
+        ..Inputs::default()
     };
-    let mut plant = ExoskeletonArms {
-        left: side(-150.0),
-        right: side(-130.0),
-        ..ExoskeletonArms::default()
-    };
-    plant.parameters.table.position = -0.38;
-    plant.parameters.payload_m = 10.0;
+    let mut plant = ExoskeletonArms::default();
+    plant.inputs.left = side(-150.0);
+    plant.inputs.right = side(-130.0);
+    plant.parameters.arm.table.z = -0.38;
+    plant.parameters.arm.payload_m = 10.0;
     let mut log = Log::silent();
     plant.initialize(0.0, &mut log).unwrap();
     let (n, ()) = allocations(|| {
@@ -36,7 +35,7 @@ fn a_step_allocates_nothing() {
         }
     });
     assert_eq!(n, 0);
-    assert!(plant.attached && plant.lambda != [0.0; 3]); // landed, gripped, and coupled on the way
+    assert!(plant.outputs.attached && plant.outputs.lambda != [0.0; 3]); // landed, gripped, and coupled on the way
     let (n, _) = allocations(|| std::hint::black_box(Box::new(0)));
     assert_eq!(n, 1); // it does count
 }

@@ -14,13 +14,23 @@ fn shoulders_stand_at_plus_and_minus_base_y() {
     let mut arm = ExoskeletonArm::default();
     arm.initialize(0.0, &mut Log::silent()).unwrap();
     let both = started(|arms| arms.base.y = 0.25);
-    for (side, y) in [(&both.left, 0.25), (&both.right, -0.25)] {
-        assert_eq!(side.q, arm.q);
-        assert_eq!(side.p, [arm.p[0], arm.p[1] + y, arm.p[2]]);
-        assert_eq!(side.p_pad, [arm.p_pad[0], arm.p_pad[1] + y, arm.p_pad[2]]);
+    for (side, y) in [(&both.outputs.left, 0.25), (&both.outputs.right, -0.25)] {
+        assert_eq!(side.q, arm.outputs.q);
+        assert_eq!(
+            side.p,
+            [arm.outputs.p[0], arm.outputs.p[1] + y, arm.outputs.p[2]]
+        );
+        assert_eq!(
+            side.p_pad,
+            [
+                arm.outputs.p_pad[0],
+                arm.outputs.p_pad[1] + y,
+                arm.outputs.p_pad[2]
+            ]
+        );
     }
     assert_eq!(
-        (both.gap, both.lambda, both.attached),
+        (both.outputs.gap, both.outputs.lambda, both.outputs.attached),
         (0.0, [0.0; 3], false)
     );
 }
@@ -28,17 +38,17 @@ fn shoulders_stand_at_plus_and_minus_base_y() {
 #[test]
 fn a_second_initialization_starts_from_parameters_and_inputs_alone() {
     let change = |arms: &mut ExoskeletonArms| {
-        arms.parameters.q_start[0] = 0.3;
-        arms.parameters.payload_m = 5.0;
-        arms.parameters.payload_attached = true;
+        arms.start.q[0] = 0.3;
+        arms.parameters.arm.payload_m = 5.0;
+        arms.start.attached = true;
     };
     let fresh = started(change);
     let mut used = started(|arms| {
         change(arms);
-        arms.left.tau_a = [30.0; 3];
+        arms.inputs.left.tau_a = [30.0; 3];
     });
     run(&mut used, 0, 50);
-    used.left.tau_a = [0.0; 3];
+    used.inputs.left.tau_a = [0.0; 3];
     used.initialize(0.0, &mut Log::silent()).unwrap();
     assert_eq!(used, fresh);
 }
@@ -48,18 +58,18 @@ fn impossible_arms_are_refused_with_variable_value_and_range() {
     for (text, change) in [
         (
             "link.m[2] = -3.5 kg, expected a value from 0.001 to 10000",
-            (|arms| arms.parameters.link.m[1] = -3.5) as fn(&mut ExoskeletonArms),
+            (|arms| arms.parameters.arm.masses.links[1].m = -3.5) as fn(&mut ExoskeletonArms),
         ),
         ("q_start[2] = 1.1 rad: expected -2.0 to 1.0 rad", |arms| {
-            arms.parameters.q_start[1] = 1.1;
+            arms.start.q[1] = 1.1;
         }),
         (
             "payload.m = 0 kg, expected a mass greater than 0, since payload.attached = true",
-            |arms| arms.parameters.payload_attached = true,
+            |arms| arms.start.attached = true,
         ),
         (
             "bond.k = 1 N/m, expected a value from 10000 to 10000000000",
-            |arms| arms.bond.k = 1.0,
+            |arms| arms.parameters.bond.k = 1.0,
         ),
         ("base.y = NaN m, expected a finite value", |arms| {
             arms.base.y = f64::NAN;
@@ -99,10 +109,10 @@ fn each_side_has_the_ports_of_the_single_arm() {
     let both: Vec<_> = ExoskeletonArms::DESCRIPTION.variables.iter().collect();
     for side in ["left.", "right."] {
         let mut seen = 0;
-        for row in both.iter().filter(|row| row.name.starts_with(side)) {
+        for row in both.iter().filter(|row| row.full_name().starts_with(side)) {
             let like = single
                 .iter()
-                .find(|one| row.name[side.len()..] == *one.name);
+                .find(|one| row.full_name()[side.len()..] == one.full_name());
             let like = like.unwrap_or_else(|| panic!("{} is not of the single arm", row.name));
             assert_eq!(
                 (row.len, row.causality),
@@ -153,11 +163,11 @@ fn changed(
 fn declared_initial_dependencies_are_the_true_ones() {
     // A start at which everything that can matter does.
     let mut moving = ExoskeletonArms::default();
-    moving.parameters.q_start = [0.3, -1.0, 1.2];
-    moving.parameters.dq_start = [0.5, 0.4, -0.3];
-    moving.parameters.gravity = [0.3, 0.2, -9.8];
-    moving.parameters.payload_m = 7.0;
-    moving.parameters.payload_attached = true;
+    moving.start.q = [0.3, -1.0, 1.2];
+    moving.start.dq = [0.5, 0.4, -0.3];
+    moving.parameters.arm.masses.gravity = [0.3, 0.2, -9.8];
+    moving.parameters.arm.payload_m = 7.0;
+    moving.start.attached = true;
     let mut before = moving.clone();
     before.initialize(0.0, &mut Log::silent()).unwrap();
     let rows = ExoskeletonArms::DESCRIPTION.variables;
@@ -172,11 +182,15 @@ fn declared_initial_dependencies_are_the_true_ones() {
                 if other.initialize(0.0, &mut Log::silent()).is_ok()
                     && bits(output, &mut other) != bits(output, &mut before)
                 {
-                    found.insert(row.name);
+                    found.insert(row.full_name());
                 }
             }
         }
-        let declared: BTreeSet<_> = output.initially_from.iter().copied().collect();
+        let declared: BTreeSet<_> = output
+            .initially_from
+            .iter()
+            .map(|&name| name.to_owned())
+            .collect();
         assert_eq!(declared, found, "{}", output.name);
         checked += usize::from(!found.is_empty());
     }

@@ -10,30 +10,27 @@ use export::{Log, Model, Step};
 /// 20 kg on both pads, the left arm lifting more than the right one.
 fn lifting() -> ExoskeletonArms {
     let mut arms = started(|arms| {
-        arms.parameters.payload_m = 20.0;
-        arms.parameters.payload_attached = true;
+        arms.parameters.arm.payload_m = 20.0;
+        arms.start.attached = true;
     });
-    arms.left.tau_a = [20.0, 160.0, 100.0];
-    arms.right.tau_a = [0.0, 120.0, 80.0];
-    (arms.left.vacuum, arms.right.vacuum) = (true, true);
+    arms.inputs.left.tau_a = [20.0, 160.0, 100.0];
+    arms.inputs.right.tau_a = [0.0, 120.0, 80.0];
+    (arms.inputs.left.vacuum, arms.inputs.right.vacuum) = (true, true);
     arms
 }
 
 #[test]
 fn each_port_drives_its_own_arm() {
     let mut arms = started(|_| ());
-    arms.right.tau_a = [0.0, 60.0, 20.0];
-    arms.left.f_h = [0.0, 80.0, 0.0];
+    arms.inputs.right.tau_a = [0.0, 60.0, 20.0];
+    arms.inputs.left.f_h = [0.0, 80.0, 0.0];
     run(&mut arms, 0, 300);
     for (side, f_h, tau_a) in [
-        (&arms.left, [0.0, 80.0, 0.0], [0.0; 3]),
-        (&arms.right, [0.0; 3], [0.0, 60.0, 20.0]),
+        (&arms.outputs.left, [0.0, 80.0, 0.0], [0.0; 3]),
+        (&arms.outputs.right, [0.0; 3], [0.0, 60.0, 20.0]),
     ] {
-        let mut single = ExoskeletonArm {
-            f_h,
-            tau_a,
-            ..ExoskeletonArm::default()
-        };
+        let mut single = ExoskeletonArm::default();
+        (single.inputs.f_h, single.inputs.tau_a) = (f_h, tau_a);
         single.initialize(0.0, &mut Log::silent()).unwrap();
         for k in 0..300 {
             let step = Step {
@@ -43,11 +40,14 @@ fn each_port_drives_its_own_arm() {
             };
             single.step(step, &mut Log::silent()).unwrap();
         }
-        assert_ne!(single.dq, [0.0; 3]);
-        assert_eq!((side.q, side.dq, side.dp), (single.q, single.dq, single.dp));
+        assert_ne!(single.outputs.dq, [0.0; 3]);
+        assert_eq!(
+            (side.q, side.dq, side.dp),
+            (single.outputs.q, single.outputs.dq, single.outputs.dp)
+        );
         assert_eq!(
             (side.tau_applied, side.tau_f),
-            (single.tau_applied, single.tau_f)
+            (single.outputs.tau_applied, single.outputs.tau_f)
         );
     }
 }
@@ -56,17 +56,21 @@ fn each_port_drives_its_own_arm() {
 fn the_payload_ties_the_arms_and_lambda_says_how_hard() {
     let mut arms = lifting();
     run(&mut arms, 0, 500);
-    assert!(arms.attached && arms.left.p_pad[2] > -0.35);
+    assert!(arms.outputs.attached && arms.outputs.left.p_pad[2] > -0.35);
     let apart: Vec<_> = (0..3)
-        .map(|i| arms.left.p_pad[i] - arms.right.p_pad[i] - [0.0, 0.4, 0.0][i])
+        .map(|i| arms.outputs.left.p_pad[i] - arms.outputs.right.p_pad[i] - [0.0, 0.4, 0.0][i])
         .collect();
     let gap = apart.iter().map(|x| x * x).sum::<f64>().sqrt();
     assert!(gap > 0.0 && gap < 1e-5, "{gap:e}");
-    assert!((arms.gap - gap).abs() < 1e-15, "{:e} {gap:e}", arms.gap); // roundings of 0.4 m
+    assert!(
+        (arms.outputs.gap - gap).abs() < 1e-15,
+        "{:e} {gap:e}",
+        arms.outputs.gap
+    ); // roundings of 0.4 m
     // The left half hangs on the right one: down on it, and less tension here than there would be without.
-    assert!(arms.lambda[2] < -5.0, "{:?}", arms.lambda);
-    assert!(arms.left.tension > arms.right.tension);
-    assert!(arms.bond_energy.stored > 0.0 && arms.bond_energy.loss > 0.0);
+    assert!(arms.outputs.lambda[2] < -5.0, "{:?}", arms.outputs.lambda);
+    assert!(arms.outputs.left.tension > arms.outputs.right.tension);
+    assert!(arms.outputs.energy.bond > 0.0 && arms.outputs.energy.loss_bond > 0.0);
 }
 
 #[test]
@@ -95,8 +99,8 @@ fn one_long_step_is_many_short_ones() {
     long.step(step, &mut Log::silent()).unwrap();
     // The substeps differ by roundings of 0.1/1000; after 1000 of them some 1e-13 is left.
     for i in 0..3 {
-        assert!((short.left.q[i] - long.left.q[i]).abs() < 1e-11);
-        assert!((short.right.q[i] - long.right.q[i]).abs() < 1e-11);
+        assert!((short.outputs.left.q[i] - long.outputs.left.q[i]).abs() < 1e-11);
+        assert!((short.outputs.right.q[i] - long.outputs.right.q[i]).abs() < 1e-11);
     }
 }
 
@@ -121,7 +125,7 @@ fn a_step_of_too_many_substeps_is_refused() {
 #[test]
 fn numbers_out_of_range_are_refused() {
     let mut arms = lifting();
-    arms.right.f_h[0] = 1e308;
+    arms.inputs.right.f_h[0] = 1e308;
     let step = Step {
         start_time: 0.0,
         t: 0.0,

@@ -1,6 +1,6 @@
 //! A position drive: an actuator that closes its own PI loop around commanded position and velocity.
 
-use crate::Range;
+use declaration::{Rows, Start};
 
 /// The drive's loop, with a limit on its force.
 ///
@@ -9,61 +9,35 @@ use crate::Range;
 /// ```
 ///
 /// It is a digital drive: q and dq are sampled at the start of each of its cycles, the force is held for the cycle. The
-/// cycle is the plant's substep, 25 times a controller's period for the paper's testbed.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// cycle is the plant's substep, 25 times a controller's period for the paper's testbed. The start values are the gains and
+/// the force limit of the paper's 1-DoF experiments.
+#[derive(Clone, Copy, Debug, PartialEq, Rows, Start)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Drive {
-    /// Velocity gain K (N·s/m).
+    /// velocity gain of the position drive
+    #[parameter(0, name = "drive.K", unit = NEWTON_SECOND_PER_METRE, range = 0.0..=1e6, start = 30.0)]
     pub K: f64,
-    /// Ratio of position to velocity gain K_P (1/s).
+    /// ratio of the position gain to the velocity gain of the position drive
+    #[parameter(1, name = "drive.K_P", unit = PER_SECOND, range = 0.0..=1e6, start = 10.0)]
     pub K_P: f64,
-    /// Largest force τ_max (N).
+    /// largest absolute force of the position drive
+    #[parameter(2, name = "drive.tau_max", unit = NEWTON, range = 0.0..=1e6, start = 12.5)]
     pub tau_max: f64,
 }
 
 /// What the drive is told.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Rows)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Command {
-    /// Position q_d (m).
+    /// position command, held during the step; used by the position drive only
+    #[input(0, unit = METRE)]
     pub q_d: f64,
-    /// Velocity dq_d (m/s).
+    /// velocity command, held during the step; used by the position drive only
+    #[input(1, unit = METRE_PER_SECOND)]
     pub dq_d: f64,
 }
 
-impl Default for Drive {
-    /// The gains and the force limit of the paper's 1-DoF experiments.
-    fn default() -> Self {
-        Self {
-            K: 30.0,
-            K_P: 10.0,
-            tau_max: 12.5,
-        }
-    }
-}
-
 impl Drive {
-    /// Range of K (N·s/m).
-    pub const GAIN: Range = Range {
-        variable: "drive.K",
-        unit: "N.s/m",
-        low: 0.0,
-        high: 1e6,
-    };
-    /// Range of K_P (1/s).
-    pub const RATIO: Range = Range {
-        variable: "drive.K_P",
-        unit: "1/s",
-        low: 0.0,
-        high: 1e6,
-    };
-    /// Range of τ_max (N).
-    pub const FORCE: Range = Range {
-        variable: "drive.tau_max",
-        unit: "N",
-        low: 0.0,
-        high: 1e6,
-    };
-
     /// Force (N) on the driven part in a cycle that begins at position `q` (m) and velocity `dq` (m/s).
     pub fn force(&self, command: &Command, q: f64, dq: f64) -> f64 {
         let demand = self.K * ((command.dq_d - dq) + self.K_P * (command.q_d - q));

@@ -1,6 +1,7 @@
 //! Where the energy is, where it came from, where it went.
 
 use crate::Sum;
+use declaration::Rows;
 
 /// Energy that crossed the plant's boundaries in one substep (J).
 ///
@@ -27,31 +28,42 @@ pub struct Flow {
     pub loss_step: f64,
 }
 
-/// Energy balance since the start (J).
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+/// Energy balance since the start (J); each sum adds up one term of [`Flow`].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Rows)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Energy {
-    /// Kinetic energy of the mass: ½ M dq².
+    /// kinetic energy of the mass, M dq^2/2
+    #[output(0, name = "energy.kinetic", unit = JOULE, from = ["M", "dq_start"])]
     pub kinetic: f64,
-    /// Stored in the wall: ½ k s².
+    /// energy stored in the wall, k s^2/2 with the deflection s of its surface
+    #[output(1, name = "energy.wall", unit = JOULE)]
     pub wall: f64,
-    /// Work of the actuator on the mass.
+    /// work of tau_a on the mass since the start
+    #[output(2, name = "energy.work_tau_a", unit = JOULE)]
     pub work_tau_a: f64,
-    /// Work of the human on the mass.
+    /// work of tau_h on the mass since the start
+    #[output(3, name = "energy.work_tau_h", unit = JOULE)]
     pub work_tau_h: f64,
-    /// Work of the disturbance on the mass.
+    /// work of tau_d on the mass since the start
+    #[output(4, name = "energy.work_tau_d", unit = JOULE)]
     pub work_tau_d: f64,
-    /// Heat of Coulomb friction.
+    /// heat of Coulomb friction since the start
+    #[output(5, name = "energy.loss_coulomb", unit = JOULE)]
     pub loss_coulomb: f64,
-    /// Heat of viscous friction.
+    /// heat of viscous friction since the start
+    #[output(6, name = "energy.loss_viscous", unit = JOULE)]
     pub loss_viscous: f64,
-    /// Heat of the wall's damper.
+    /// heat of the damper in the wall since the start
+    #[output(7, name = "energy.loss_wall", unit = JOULE)]
     pub loss_wall: f64,
-    /// Lost in landings on the wall, first order in the substep; see [`Flow::loss_impact`].
+    /// lost in landings on the wall since the start, of first order in the substep
+    #[output(8, name = "energy.loss_impact", unit = JOULE)]
     pub loss_impact: f64,
-    /// The integrator's own loss, first order in the substep; see [`Flow::loss_step`].
+    /// loss of the integrator (backward Euler) since the start, of first order in the substep
+    #[output(9, name = "energy.loss_step", unit = JOULE)]
     pub loss_step: f64,
-    /// Σ work − Σ loss − (E − E(0)), E = kinetic + wall. Zero up to rounding: no term is defined by it.
+    /// works - losses - (kinetic + wall - their start value): zero up to rounding, defines no term
+    #[output(10, name = "energy.residual", unit = JOULE)]
     pub residual: f64,
 }
 

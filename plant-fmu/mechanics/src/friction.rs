@@ -1,36 +1,24 @@
 //! Coulomb friction, set-valued, with viscous friction.
 
-use crate::{FLOOR, Range, Sum};
+use crate::{FLOOR, Sum};
+use declaration::{Rows, Start};
 
 /// Friction of one axis. On the moving part acts τ_f, with −τ_f ∈ F_c Sgn(v) + b v, Sgn(0) = \[−1, 1\].
 ///
 /// Stiction equals Coulomb friction. At v = 0 friction is whatever holds the part, up to F_c: it truly sticks. (Smooth
-/// substitutes, tanh or LuGre, creep under any load.)
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// substitutes, tanh or LuGre, creep under any load.) The start values are those of the paper's testbed.
+#[derive(Clone, Copy, Debug, PartialEq, Rows, Start)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Friction {
-    /// Coulomb friction and stiction F_c (N).
+    /// Coulomb friction, equal to stiction
+    #[parameter(1, unit = NEWTON, range = 0.0..=1e6, start = 0.64)]
     pub F_c: f64,
-    /// Viscous friction b (N·s/m).
+    /// viscous friction
+    #[parameter(2, unit = NEWTON_SECOND_PER_METRE, range = 0.0..=1e6, start = 0.19)]
     pub b: f64,
 }
 
 impl Friction {
-    /// Range of F_c (N).
-    pub const F_C: Range = Range {
-        variable: "F_c",
-        unit: "N",
-        low: 0.0,
-        high: 1e6,
-    };
-    /// Range of b (N·s/m).
-    pub const B: Range = Range {
-        variable: "b",
-        unit: "N.s/m",
-        low: 0.0,
-        high: 1e6,
-    };
-
     /// One implicit step of `dt` (s): the new velocity v (m/s) and the impulse j_f (N·s) with which Coulomb friction
     /// opposes it, from the velocity `v_0` (m/s), the impulse `i` (N·s) of all else and the mass `m` (kg) that resists:
     ///

@@ -1,5 +1,8 @@
 //! Physics of the plants: friction that sticks, walls that only push, an energy balance that closes.
 //!
+//! Parameters, inputs and energies are the rows of the FMUs: what they are, their units, ranges and start values stand here
+//! alone.
+//!
 //! No I/O, no clock, no allocation, no panic: numbers in, numbers out, the same bits on every machine. The integrator is
 //! backward Euler in the velocity. Friction and contact are set-valued and enter implicitly, so that neither creeps nor
 //! chatters at any substep. On one axis the implicit equation is monotone and piecewise linear, and is solved exactly.
@@ -26,7 +29,7 @@
 //! | symbol | equation | unit | item |
 //! |---|---|---|---|
 //! | q, dq | M ddq = τ_a + τ_h + τ_d + τ_f + τ_e | m, m/s | [`testbed::Testbed`] |
-//! | M | moving mass | kg | [`testbed::Parameters::M`] |
+//! | M | moving mass | kg | [`testbed::Parameters::M`](testbed::Parameters#structfield.M) |
 //! | τ_a, τ_h, τ_d | actuator, human, disturbance | N | [`testbed::Forces`] |
 //! | τ_f | −τ_f ∈ F_c Sgn(dq) + b dq, Sgn(0) = \[−1, 1\] | N | [`friction::Friction`] |
 //! | τ_e | −τ_e = λ, 0 ≤ λ ⟂ s − (q − q_wall) ≥ 0 | N | [`wall::Wall`] |
@@ -47,7 +50,7 @@
 //! | [`substep`] | its implicit equation, solved in closed form |
 //! | [`energy`] | works, losses and stores, each by its own formula |
 //! | [`sum`] | a number that many small additions do not wear down |
-//! | [`parameter`] | ranges and the error that names variable, value and range |
+//! | [`parameter`] | the bounds that rows say, and the error that names variable, value and bounds |
 //!
 //! With the feature `serde` every parameter and state can be saved and restored.
 #![no_std]
@@ -69,7 +72,7 @@ pub mod testbed;
 pub mod wall;
 
 pub use energy::Energy;
-pub use parameter::{ParameterError, Range};
+pub use parameter::{Bounds, ParameterError};
 pub use sum::Sum;
 pub use testbed::Testbed;
 

@@ -1,12 +1,16 @@
-//! Parameter ranges, checked when a plant is built.
+//! What a parameter may be: the range that its row says, checked when a plant is built.
 
 use core::fmt;
+use declaration::check::{self, Objection};
+use declaration::{Access, Causality, Rows, compose};
 
-/// What a parameter may be: `low ..= high`.
+/// What a value may be: the range of its row, or the part of it that other parameters leave.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Range {
-    /// Name in the interface, for instance `wall.k`.
-    pub variable: &'static str,
+pub struct Bounds {
+    /// The row's name; a vector's may end in `[i]`.
+    pub name: &'static str,
+    /// The element, from 1; `None` for a scalar.
+    pub element: Option<usize>,
     /// Unit of value and bounds.
     pub unit: &'static str,
     /// Smallest accepted value.
@@ -15,8 +19,56 @@ pub struct Range {
     pub high: f64,
 }
 
-impl Range {
-    /// Accepts `value` if it lies in the range; NaN does not.
+impl Bounds {
+    /// Those of the row `name` of `P`.
+    ///
+    /// # Panics
+    /// When `P` has no Real of this name (at compile time: for constants only).
+    pub(crate) const fn of<P: Rows>(name: &str) -> Self {
+        let mut i = 0;
+        while i < P::ROWS.len() {
+            let row = &P::ROWS[i];
+            if let (true, Access::Real { unit, range, .. }) =
+                (compose::equal(row.name, name), &row.access)
+            {
+                return Self {
+                    name: row.name,
+                    element: None,
+                    unit: unit.name,
+                    low: range.low,
+                    high: range.high,
+                };
+            }
+            i += 1;
+        }
+        panic!("no row has this name")
+    }
+
+    /// Those of element `i`, from 0.
+    pub(crate) fn element(self, i: usize) -> Self {
+        Self {
+            element: Some(i + 1),
+            ..self
+        }
+    }
+
+    /// The part from `low` on.
+    pub(crate) fn at_least(self, low: f64) -> Self {
+        Self {
+            low: self.low.max(low),
+            ..self
+        }
+    }
+
+    /// The part up to `high`.
+    pub(crate) fn at_most(self, high: f64) -> Self {
+        Self {
+            high: self.high.min(high),
+            ..self
+        }
+    }
+
+    /// Accepts `value` if it lies within; NaN does not.
     ///
     /// # Errors
     /// [`ParameterError::OutOfRange`].
@@ -24,18 +76,29 @@ impl Range {
         if self.low <= value && value <= self.high {
             Ok(())
         } else {
-            Err(ParameterError::OutOfRange { range: self, value })
+            Err(ParameterError::OutOfRange {
+                bounds: self,
+                value,
+            })
         }
     }
+}
+
+/// Whether every parameter of `of` lies in the range that its row says.
+///
+/// # Errors
+/// The first, in the order of the rows, that does not.
+pub fn in_range<P: Rows>(of: &P) -> Result<(), ParameterError> {
+    Ok(check::first(of, P::ROWS, Causality::Parameter, false)?)
 }
 
 /// Why a plant cannot be built.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ParameterError {
-    /// A parameter lies outside its range.
+    /// A parameter lies out of its bounds.
     OutOfRange {
-        /// Variable and what was expected.
-        range: Range,
+        /// Which one, and what was expected.
+        bounds: Bounds,
         /// What came.
         value: f64,
     },
@@ -48,22 +111,42 @@ pub enum ParameterError {
     },
 }
 
+impl From<Objection> for ParameterError {
+    fn from(objection: Objection) -> Self {
+        Self::OutOfRange {
+            bounds: Bounds {
+                name: objection.name,
+                element: objection.element,
+                unit: objection.unit.name,
+                low: objection.low,
+                high: objection.high,
+            },
+            value: objection.value,
+        }
+    }
+}
+
 impl fmt::Display for ParameterError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::OutOfRange {
-                range:
-                    Range {
-                        variable,
+                bounds:
+                    Bounds {
+                        name,
+                        element,
                         unit,
                         low,
                         high,
                     },
                 value,
             } => {
+                f.write_str(name.strip_suffix("[i]").unwrap_or(name))?;
+                if let Some(element) = element {
+                    write!(f, "[{element}]")?;
+                }
                 write!(
                     f,
-                    "{variable} = {value:?} {unit}: expected {low:?} to {high:?} {unit}"
+                    " = {value:?} {unit}: expected {low:?} to {high:?} {unit}"
                 )
             }
             Self::StartBeyondWall { q_start, wall_q } => {
@@ -81,21 +164,22 @@ impl core::error::Error for ParameterError {}
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::testbed::Parameters;
 
-    const RANGE: Range = Range {
-        variable: "M",
-        unit: "kg",
-        low: 0.5,
-        high: 2.0,
-    };
+    const BOUNDS: Bounds = Bounds::of::<Parameters>("wall.k");
+
+    #[test]
+    fn bounds_are_those_of_the_row() {
+        assert_eq!((BOUNDS.unit, BOUNDS.low, BOUNDS.high), ("N/m", 1.0, 1e9));
+    }
 
     #[test]
     fn bounds_belong_to_the_range_and_nan_does_not() {
-        for value in [0.5, 1.0, 2.0] {
-            assert_eq!(RANGE.check(value), Ok(()));
+        for value in [1.0, 2.0, 1e9] {
+            assert_eq!(BOUNDS.check(value), Ok(()));
         }
-        for value in [0.499, 2.001, f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
-            assert!(RANGE.check(value).is_err(), "{value}");
+        for value in [0.999, 1.1e9, f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+            assert!(BOUNDS.check(value).is_err(), "{value}");
         }
     }
 }

@@ -1,66 +1,55 @@
 //! The 1-DoF testbed: a mass with friction in front of a wall (`fig:1dof_testbed`).
 
+use crate::Sum;
 use crate::drive::{Command, Drive};
 use crate::energy::{Energy, Ledger};
 use crate::friction::Friction;
+use crate::parameter::{ParameterError, in_range};
 use crate::substep::substep;
 use crate::wall::Wall;
-use crate::{ParameterError, Range, Sum};
+use declaration::{Rows, Start};
 
 /// Forces on the mass, positive along +q (N), held over a run of substeps.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Rows)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Forces {
-    /// Actuator τ_a.
+    /// force of the actuator on the mass, positive along +q
+    #[input(0, unit = NEWTON)]
     pub tau_a: f64,
-    /// Human τ_h, at the handle with the load cell.
+    /// force of the human on the mass, at the handle, positive along +q
+    #[input(1, unit = NEWTON)]
     pub tau_h: f64,
-    /// Disturbance τ_d that no sensor sees.
+    /// disturbance force on the mass that no sensor sees, positive along +q
+    #[input(2, unit = NEWTON)]
     pub tau_d: f64,
 }
 
-/// What the testbed is made of. The default is the paper's: 6 kg, 0.64 N, 0.19 N·s/m, a wall at 0.3 m.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// What the testbed is made of. The start values are the paper's: 1 kg of testbed and 5 kg of payload, 0.64 N, 0.19 N·s/m, a
+/// wall at 0.3 m.
+#[derive(Clone, Copy, Debug, PartialEq, Rows, Start)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Parameters {
-    /// Moving mass M (kg): mass of the testbed and payload, 1 kg + 5 kg.
+    /// moving mass
+    #[parameter(0, unit = KILOGRAM, range = 1e-3..=1e6, start = 6.0)]
     pub M: f64,
     /// Friction of the guide.
+    #[part]
     pub friction: Friction,
     /// The wall.
+    #[part]
     pub wall: Wall,
 }
 
-impl Default for Parameters {
-    fn default() -> Self {
-        Self {
-            M: 6.0,
-            friction: Friction { F_c: 0.64, b: 0.19 },
-            wall: Wall {
-                q: 0.3,
-                k: 1e5,
-                c: 300.0,
-            },
-        }
-    }
-}
-
-impl Parameters {
-    /// Range of M (kg).
-    pub const M: Range = Range {
-        variable: "M",
-        unit: "kg",
-        low: 1e-3,
-        high: 1e6,
-    };
-
-    fn check(&self) -> Result<(), ParameterError> {
-        Self::M.check(self.M)?;
-        Friction::F_C.check(self.friction.F_c)?;
-        Friction::B.check(self.friction.b)?;
-        Wall::Q.check(self.wall.q)?;
-        Wall::K.check(self.wall.k)?;
-        Wall::C.check(self.wall.c)
-    }
+/// Where the testbed starts.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Rows)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Start {
+    /// start position, at most wall.q
+    #[parameter(0, name = "q_start", unit = METRE, range = -1e6..=1e6)]
+    pub q: f64,
+    /// start velocity
+    #[parameter(1, name = "dq_start", unit = METRE_PER_SECOND, range = -1e3..=1e3)]
+    pub dq: f64,
 }
 
 /// Where the testbed is. Always s ≥ 0 and s ≥ q − q_wall.
@@ -94,21 +83,6 @@ impl Default for Testbed {
 }
 
 impl Testbed {
-    /// Range of the start position (m); besides, it must not lie beyond the wall.
-    pub const Q_START: Range = Range {
-        variable: "q_start",
-        unit: "m",
-        low: -1e6,
-        high: 1e6,
-    };
-    /// Range of the start velocity (m/s).
-    pub const DQ_START: Range = Range {
-        variable: "dq_start",
-        unit: "m/s",
-        low: -1e3,
-        high: 1e3,
-    };
-
     /// The mass at `q_start` (m), moving at `dq_start` (m/s), the wall undeflected.
     ///
     /// # Errors
@@ -118,9 +92,11 @@ impl Testbed {
         q_start: f64,
         dq_start: f64,
     ) -> Result<Self, ParameterError> {
-        parameters.check()?;
-        Self::Q_START.check(q_start)?;
-        Self::DQ_START.check(dq_start)?;
+        in_range(&parameters)?;
+        in_range(&Start {
+            q: q_start,
+            dq: dq_start,
+        })?;
         if q_start > parameters.wall.q {
             return Err(ParameterError::StartBeyondWall {
                 q_start,

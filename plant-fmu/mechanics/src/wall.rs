@@ -1,6 +1,7 @@
 //! Unilateral Kelvin–Voigt contact whose surface has a deflection of its own.
 
-use crate::{FLOOR, Range};
+use crate::FLOOR;
+use declaration::{Rows, Start};
 
 /// A wall at `q` that pushes back along −q when a body presses its surface in by s ≥ 0.
 ///
@@ -9,42 +10,25 @@ use crate::{FLOOR, Range};
 /// ```
 ///
 /// The surface is a state: it follows the body while pressed and relaxes by itself (λ = 0, time constant c/k) when the
-/// body leaves faster than it can. So the contact never pulls, and its force needs no clipping that would lose energy.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// body leaves faster than it can. So the contact never pulls, and its force needs no clipping that would lose energy. The
+/// start values are those of the testbed.
+#[derive(Clone, Copy, Debug, PartialEq, Rows, Start)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Wall {
-    /// Position of the undeflected surface (m); [`Wall::NONE`] is out of reach.
+    /// position of the wall, 1e9: no wall
+    #[parameter(3, name = "wall.q", unit = METRE, range = -1e9..=1e9, start = 0.3)]
     pub q: f64,
-    /// Stiffness k (N/m).
+    /// stiffness of the wall
+    #[parameter(4, name = "wall.k", unit = NEWTON_PER_METRE, range = 1.0..=1e9, start = 1e5)]
     pub k: f64,
-    /// Damping c (N·s/m).
+    /// damping of the wall
+    #[parameter(5, name = "wall.c", unit = NEWTON_SECOND_PER_METRE, range = 0.0..=1e9, start = 300.0)]
     pub c: f64,
 }
 
 impl Wall {
     /// Position (m) that stands for "no wall".
     pub const NONE: f64 = 1e9;
-    /// Range of the position (m).
-    pub const Q: Range = Range {
-        variable: "wall.q",
-        unit: "m",
-        low: -Self::NONE,
-        high: Self::NONE,
-    };
-    /// Range of k (N/m).
-    pub const K: Range = Range {
-        variable: "wall.k",
-        unit: "N/m",
-        low: 1.0,
-        high: 1e9,
-    };
-    /// Range of c (N·s/m).
-    pub const C: Range = Range {
-        variable: "wall.c",
-        unit: "N.s/m",
-        low: 0.0,
-        high: 1e9,
-    };
 
     /// Deflection (m) to which the free surface relaxes from `s` (m) within `dt` (s), backward Euler:
     ///

@@ -25,8 +25,8 @@ const SETTLE: u32 = 10_000;
 fn corner(gap: f64) -> Parameters {
     let pad = Arm::default().place().pad.p;
     let mut parameters = weightless();
-    parameters.table.position = pad.z - gap;
-    parameters.wall.position = pad.x + gap;
+    parameters.table.z = pad.z - gap;
+    parameters.wall.x = pad.x + gap;
     (parameters.table.c, parameters.wall.c) = (3e3, 3e3);
     parameters
 }
@@ -123,7 +123,7 @@ fn at_rest_the_table_bears_the_load_by_its_stiffness() {
         "{}",
         arm.f_e()
     );
-    let penetration = parameters.table.position - arm.place().pad.p.z;
+    let penetration = parameters.table.z - arm.place().pad.p.z;
     assert!((penetration - 50.0 / 1e5).abs() < 1e-12, "{penetration}");
     assert!((arm.state().s[0] - penetration).abs() < 1e-15);
 }

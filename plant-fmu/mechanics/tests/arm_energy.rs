@@ -32,8 +32,8 @@ fn plant() -> Arm {
         ..Parameters::default()
     };
     let pad = Arm::default().place().pad.p;
-    parameters.table.position = pad.z - 0.03;
-    parameters.wall.position = pad.x + 0.1;
+    parameters.table.z = pad.z - 0.03;
+    parameters.wall.x = pad.x + 0.1;
     Arm::new(parameters, &Start::default()).unwrap()
 }
 

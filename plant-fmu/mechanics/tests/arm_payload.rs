@@ -23,7 +23,7 @@ fn above_the_table(payload_m: f64) -> Parameters {
         payload_m,
         ..Parameters::default()
     };
-    parameters.table.position = Arm::default().place().pad.p.z - 1e-3;
+    parameters.table.z = Arm::default().place().pad.p.z - 1e-3;
     parameters
 }
 
@@ -63,7 +63,7 @@ fn gripping_keeps_the_momentum() {
 fn it_takes_vacuum_and_5_N_to_grip() {
     // Weightless and without dry friction the arm passes on what pushes the pad; 10 kN·s/m let it settle from below.
     let mut parameters = above_the_table(5.0);
-    parameters.table.position += 1e-3; // touching
+    parameters.table.z += 1e-3; // touching
     parameters.table.c = 1e4;
     parameters.masses.gravity = [0.0; 3];
     for friction in &mut parameters.friction {

@@ -54,7 +54,7 @@ prop_compose! {
         payload in prop_oneof![Just(0.0), 0.1..30.0], q in vector(-3.0..3.0), v in vector(-3.0..3.0),
     ) -> Case {
         Case {
-            lengths: Lengths { A_1, L_1, handle, pad },
+            lengths: Lengths { A_1, L_1, handle_x: handle.x, handle_z: handle.z, pad_x: pad.x, pad_z: pad.z },
             masses: Masses { links, rotor: rotor.into(), gear: gear.into(), gravity: gravity.into() },
             payload, q, v,
         }
@@ -99,7 +99,7 @@ fn moving(
 
 fn bodies(case: &Case) -> [(usize, Link); 4] {
     let [one, two, three] = case.masses.links;
-    let InPlane { x, z } = case.lengths.pad;
+    let InPlane { x, z } = case.lengths.pad();
     let held = Link {
         m: case.payload,
         x,
@@ -207,7 +207,7 @@ proptest! {
     #[test]
     fn points_of_link_3_are_where_rotation_matrices_put_them(case in cases()) {
         let pose = Pose::at(&case.q);
-        for point in [case.lengths.handle, case.lengths.pad] {
+        for point in [case.lengths.handle(), case.lengths.pad()] {
             let closed = pose.point(&case.lengths, point);
             let (p, J_v, _) = moving(&case.lengths, &case.q, 2, point);
             // Ten roundings of a metre.
@@ -236,8 +236,8 @@ fn the_default_arm_is_the_one_of_the_specification() {
     let pose = Pose::at(&q);
     let body = RigidBody::at(&pose, &lengths, &masses, 0.0);
     let (handle, pad) = (
-        pose.point(&lengths, lengths.handle),
-        pose.point(&lengths, lengths.pad),
+        pose.point(&lengths, lengths.handle()),
+        pose.point(&lengths, lengths.pad()),
     );
 
     // Each figure to the digits that the specification gives; its start pose is rounded to 5e-6 rad.

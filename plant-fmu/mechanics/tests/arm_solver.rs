@@ -71,8 +71,8 @@ prop_compose! {
             }
         });
         let place = Place::at(&parameters, &q);
-        if !far[0] { parameters.table.position = place.pad.p.z + gap[0]; }
-        if !far[1] { parameters.wall.position = place.pad.p.x - gap[1]; }
+        if !far[0] { parameters.table.z = place.pad.p.z + gap[0]; }
+        if !far[1] { parameters.wall.x = place.pad.p.x - gap[1]; }
         (parameters.table.mu, parameters.wall.mu) = (mu[0], mu[1]);
         let s = [gap[0].max(0.0) + squeeze[0], gap[1].max(0.0) + squeeze[1]];
         let state = State { q, dq, tau: Vector3::zeros(), s, attached };

@@ -108,7 +108,7 @@ fn the_pad_starts_outside_of_table_and_wall_and_may_touch_them() {
     let pad = Arm::default().place().pad.p;
     let with = |table: f64, wall: f64| {
         let mut parameters = Parameters::default();
-        (parameters.table.position, parameters.wall.position) = (table, wall);
+        (parameters.table.z, parameters.wall.x) = (table, wall);
         Arm::new(parameters, &Start::default())
     };
     assert!(with(pad.z, pad.x).is_ok());

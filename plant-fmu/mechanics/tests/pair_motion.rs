@@ -9,7 +9,7 @@ use mechanics::pair::{Bond, Pair, Parameters};
 fn parameters() -> Parameters {
     let mut parameters = Parameters::default();
     parameters.arm.payload_m = 35.0;
-    parameters.arm.table.position = -0.377;
+    parameters.arm.table.z = -0.377;
     parameters
 }
 

@@ -17,7 +17,7 @@ fn pair_of(F_max: f64, attached: bool) -> Pair {
     let mut parameters = Parameters::default();
     parameters.arm.vacuum.F_max = F_max;
     parameters.arm.payload_m = 20.0;
-    parameters.arm.table.position = -0.36;
+    parameters.arm.table.z = -0.36;
     let start = Start {
         attached,
         ..Start::default()
@@ -199,7 +199,7 @@ fn an_impossible_bond_is_refused_by_name() {
             ..Parameters::default()
         };
         match Pair::new(parameters, &Start::default()) {
-            Err(ParameterError::OutOfRange { range, .. }) => assert_eq!(range.variable, name),
+            Err(ParameterError::OutOfRange { bounds, .. }) => assert_eq!(bounds.name, name),
             other => panic!("{other:?}"),
         }
     }

@@ -3,21 +3,23 @@
 use crate::HumanOperator;
 use crate::hand::Hand;
 use crate::history::Sample;
+use crate::profile::{self, Segment};
+use crate::rows::{Inputs, Outputs};
 use export::access::check_parameters;
 use export::{Log, Model, Refusal, Step};
 
 impl Model for HumanOperator {
     fn initialize(&mut self, start_time: f64, _log: &mut Log<'_>) -> Result<(), Refusal> {
         check_parameters(self)?;
-        if let Some(i) = self.segment.backward() {
-            let (t_on, t_off) = (self.segment.t_on[i], self.segment.t_off[i]);
+        if let Some(i) = profile::backward(&self.segments) {
+            let Segment { t_on, t_off, .. } = self.segments[i];
             let i = i + 1;
             return Err(Refusal(format!(
                 "segment[{i}].t_off = {t_off} s, expected at least segment[{i}].t_on = {t_on} s"
             )));
         }
         let p_intended = if self.intended_from_start {
-            self.p
+            self.inputs.p
         } else {
             self.p_intended
         };
@@ -38,21 +40,22 @@ impl Model for HumanOperator {
 impl HumanOperator {
     /// The inputs, as those at `t`.
     fn felt(&self, t: f64) -> Sample {
-        Sample {
-            t,
-            p: self.p,
-            dp: self.dp,
-        }
+        let Inputs { p, dp } = self.inputs;
+        Sample { t, p, dp }
     }
 
     /// Outputs at `t`.
     fn show(&mut self, t: f64) {
-        self.f_profile = self.segment.force(t);
-        self.f_hand = if t < self.let_go {
+        let f_profile = profile::force(&self.segments, t);
+        let f_hand = if t < self.let_go {
             self.hand.force()
         } else {
             [0.0; 3]
         };
-        self.f_h = core::array::from_fn(|i| self.f_profile[i] + self.f_hand[i]);
+        self.outputs = Outputs {
+            f_h: core::array::from_fn(|i| f_profile[i] + f_hand[i]),
+            f_profile,
+            f_hand,
+        };
     }
 }

@@ -14,7 +14,7 @@ fn a_step_allocates_nothing() {
         delay: 0.1,
         ..HumanOperator::default()
     };
-    human.segment.amplitude[0] = 5.0;
+    human.segments[0].amplitude = 5.0;
     let mut log = Log::silent();
     human.initialize(0.0, &mut log).unwrap();
     let (n, ()) = allocations(|| {
@@ -24,14 +24,14 @@ fn a_step_allocates_nothing() {
                 t: f64::from(k) * 0.001,
                 h: 0.001,
             };
-            human.p[0] = 0.01 * step.t;
+            human.inputs.p[0] = 0.01 * step.t;
             if human.step(step, &mut log).is_err() {
                 panic!("refused");
             }
         }
     });
     assert_eq!(n, 0);
-    assert!(human.f_h[0].abs() > 0.0);
+    assert!(human.outputs.f_h[0].abs() > 0.0);
     let (n, _) = allocations(|| std::hint::black_box(Box::new(0)));
     assert_eq!(n, 1); // it does count
 }

@@ -2,6 +2,7 @@
 
 use export::{Log, Model, Step};
 use human_operator::HumanOperator;
+use human_operator::rows::Inputs;
 
 const P_0: [f64; 3] = [0.44, 0.0, -0.24];
 const OMEGA: [f64; 3] = [3.0, 5.0, 7.0];
@@ -18,19 +19,22 @@ fn motion(t: f64) -> ([f64; 3], [f64; 3]) {
 /// At rest at `P_0` until 0, moved from there on: largest error of the force against k_h (p_i − p) − b_h dp one delay ago.
 fn worst_error(delay: f64, h: f64) -> f64 {
     let mut human = HumanOperator {
-        p: P_0,
+        inputs: Inputs {
+            p: P_0,
+            ..Inputs::default()
+        },
         k_h: 300.0,
         b_h: 15.0,
         delay,
         ..HumanOperator::default()
     };
     human.initialize(0.0, &mut Log::silent()).unwrap();
-    assert_eq!(human.f_h, [0.0; 3]);
+    assert_eq!(human.outputs.f_h, [0.0; 3]);
     let mut worst: f64 = 0.0;
     for k in 0..(2.0 / h) as u32 {
         let t = f64::from(k) * h;
         let end = t + h;
-        (human.p, human.dp) = motion(end);
+        (human.inputs.p, human.inputs.dp) = motion(end);
         let step = Step {
             start_time: 0.0,
             t,
@@ -42,10 +46,10 @@ fn worst_error(delay: f64, h: f64) -> f64 {
         for i in 0..3 {
             let expected = 300.0 * (P_0[i] - p[i]) - 15.0 * dp[i];
             if then > h {
-                worst = worst.max((human.f_h[i] - expected).abs());
+                worst = worst.max((human.outputs.f_h[i] - expected).abs());
             } else if then < 0.0 {
                 assert_eq!(
-                    human.f_h[i], 0.0,
+                    human.outputs.f_h[i], 0.0,
                     "before the motion began it felt rest, at {end} s"
                 );
             }
@@ -80,7 +84,10 @@ fn between_samples_the_reflex_errs_in_second_order_of_the_step() {
 fn a_reflex_far_longer_than_the_steps_needs_no_more_memory() {
     // 100 000 steps lie within the delay, of 1022 kept samples 1 ms apart: (k_h |ddp| + b_h |dddp|)·(1 ms)²/8.
     let mut human = HumanOperator {
-        p: P_0,
+        inputs: Inputs {
+            p: P_0,
+            ..Inputs::default()
+        },
         k_h: 300.0,
         delay: 1.0,
         ..HumanOperator::default()
@@ -89,7 +96,7 @@ fn a_reflex_far_longer_than_the_steps_needs_no_more_memory() {
     let size = postcard::to_allocvec(&human).unwrap().len();
     for k in 0..200_000 {
         let t = f64::from(k) * 1e-5;
-        human.p = motion(t + 1e-5).0;
+        human.inputs.p = motion(t + 1e-5).0;
         let step = Step {
             start_time: 0.0,
             t,
@@ -99,7 +106,7 @@ fn a_reflex_far_longer_than_the_steps_needs_no_more_memory() {
         let then = t + 1e-5 - 1.0;
         if then > 1e-3 {
             let expected = 300.0 * (P_0[2] - motion(then).0[2]);
-            assert!((human.f_h[2] - expected).abs() < 1.2e-4);
+            assert!((human.outputs.f_h[2] - expected).abs() < 1.2e-4);
         }
     }
     // Variable-length counters of the ring take up to two bytes more.
@@ -110,8 +117,10 @@ fn a_reflex_far_longer_than_the_steps_needs_no_more_memory() {
 fn the_hand_wants_to_be_where_it_starts_or_where_it_is_told() {
     let at = |intended_from_start| {
         let mut human = HumanOperator {
-            p: P_0,
-            dp: [0.1, 0.0, 0.0],
+            inputs: Inputs {
+                p: P_0,
+                dp: [0.1, 0.0, 0.0],
+            },
             k_h: 100.0,
             b_h: 10.0,
             p_intended: [0.54, 0.02, -0.24],
@@ -119,7 +128,7 @@ fn the_hand_wants_to_be_where_it_starts_or_where_it_is_told() {
             ..HumanOperator::default()
         };
         human.initialize(3.0, &mut Log::silent()).unwrap();
-        human.f_h
+        human.outputs.f_h
     };
     assert_eq!(at(true), [-1.0, 0.0, 0.0]);
     let f_h = at(false);
@@ -129,18 +138,25 @@ fn the_hand_wants_to_be_where_it_starts_or_where_it_is_told() {
 #[test]
 fn profile_and_hand_are_summed() {
     let mut human = HumanOperator {
-        p: P_0,
+        inputs: Inputs {
+            p: P_0,
+            ..Inputs::default()
+        },
         k_h: 50.0,
         p_intended: [0.44, 0.1, -0.24],
         intended_from_start: false,
         ..HumanOperator::default()
     };
-    human.segment.kind[4] = 2;
-    human.segment.axis[4] = 2;
-    human.segment.amplitude[4] = -7.0;
+    human.segments[4].kind = 2;
+    human.segments[4].axis = 2;
+    human.segments[4].amplitude = -7.0;
     human.initialize(0.0, &mut Log::silent()).unwrap();
     assert_eq!(
-        (human.f_profile[1], human.f_hand[1], human.f_h[1]),
+        (
+            human.outputs.f_profile[1],
+            human.outputs.f_hand[1],
+            human.outputs.f_h[1]
+        ),
         (-7.0, 5.0, -2.0)
     );
 }
@@ -148,7 +164,10 @@ fn profile_and_hand_are_summed() {
 #[test]
 fn a_saved_state_continues_bit_for_bit() {
     let mut human = HumanOperator {
-        p: P_0,
+        inputs: Inputs {
+            p: P_0,
+            ..Inputs::default()
+        },
         k_h: 300.0,
         b_h: 15.0,
         delay: 0.05,
@@ -158,7 +177,7 @@ fn a_saved_state_continues_bit_for_bit() {
     let run = |human: &mut HumanOperator, from: u32, to: u32| {
         for k in from..to {
             let t = f64::from(k) * 1e-3;
-            (human.p, human.dp) = motion(t + 1e-3);
+            (human.inputs.p, human.inputs.dp) = motion(t + 1e-3);
             let step = Step {
                 start_time: 0.0,
                 t,
@@ -178,15 +197,18 @@ fn a_saved_state_continues_bit_for_bit() {
 #[test]
 fn a_hand_that_lets_go_pulls_no_more_and_the_plan_goes_on() {
     let mut human = HumanOperator {
-        p: P_0,
+        inputs: Inputs {
+            p: P_0,
+            ..Inputs::default()
+        },
         k_h: 300.0,
         let_go: 1.0,
         ..HumanOperator::default()
     };
-    human.segment.kind[0] = 2; // constant
-    human.segment.amplitude[0] = 3.0;
+    human.segments[0].kind = 2; // constant
+    human.segments[0].amplitude = 3.0;
     human.initialize(0.0, &mut Log::silent()).unwrap();
-    human.p[1] += 0.1;
+    human.inputs.p[1] += 0.1;
     for (t, h, f_hand) in [
         (0.0, 0.5, -30.0),
         (0.5, 0.25, -30.0),
@@ -200,10 +222,14 @@ fn a_hand_that_lets_go_pulls_no_more_and_the_plan_goes_on() {
         };
         human.step(step, &mut Log::silent()).unwrap();
         // Rounding: 300 N/m · 0.1 m · 2⁻⁵².
-        assert!((human.f_hand[1] - f_hand).abs() < 1e-13, "{t} s");
+        assert!((human.outputs.f_hand[1] - f_hand).abs() < 1e-13, "{t} s");
         assert_eq!(
-            human.f_h,
-            [3.0 + human.f_hand[0], human.f_hand[1], human.f_hand[2]]
+            human.outputs.f_h,
+            [
+                3.0 + human.outputs.f_hand[0],
+                human.outputs.f_hand[1],
+                human.outputs.f_hand[2]
+            ]
         );
     }
     let mut late = HumanOperator {
@@ -212,5 +238,5 @@ fn a_hand_that_lets_go_pulls_no_more_and_the_plan_goes_on() {
     };
     late.let_go = -1.0;
     late.initialize(0.0, &mut Log::silent()).unwrap();
-    assert_eq!(late.f_hand, [0.0; 3]);
+    assert_eq!(late.outputs.f_hand, [0.0; 3]);
 }

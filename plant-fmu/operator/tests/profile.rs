@@ -14,14 +14,14 @@ fn human(start: f64, segments: &[Segment]) -> HumanOperator {
     for (i, &(axis, kind, t_on, t_off, ramp, amplitude, frequency, phase)) in
         segments.iter().enumerate()
     {
-        human.segment.axis[i] = axis;
-        human.segment.kind[i] = kind;
-        human.segment.t_on[i] = t_on;
-        human.segment.t_off[i] = t_off;
-        human.segment.ramp[i] = ramp;
-        human.segment.amplitude[i] = amplitude;
-        human.segment.frequency[i] = frequency;
-        human.segment.phase[i] = phase;
+        human.segments[i].axis = axis;
+        human.segments[i].kind = kind;
+        human.segments[i].t_on = t_on;
+        human.segments[i].t_off = t_off;
+        human.segments[i].ramp = ramp;
+        human.segments[i].amplitude = amplitude;
+        human.segments[i].frequency = frequency;
+        human.segments[i].phase = phase;
     }
     human.initialize(start, &mut Log::silent()).unwrap();
     human
@@ -55,7 +55,7 @@ fn the_profile_of_experiment_2_is_its_closed_form() {
         }
     }
     let mut human = human(0.0, &segments);
-    assert_eq!(human.f_h, [0.0; 3]);
+    assert_eq!(human.outputs.f_h, [0.0; 3]);
     let mut strongest: f64 = 0.0;
     for k in 0..60_000 {
         step(&mut human, f64::from(k) * 1e-3, 1e-3);
@@ -69,7 +69,10 @@ fn the_profile_of_experiment_2_is_its_closed_form() {
         ];
         for (axis, expected) in expected.into_iter().enumerate() {
             // The sine's argument reaches 300 rad: 7 N · 300 · 2⁻⁵² twice over.
-            assert!((human.f_h[axis] - expected).abs() < 1e-12, "{t} {axis}");
+            assert!(
+                (human.outputs.f_h[axis] - expected).abs() < 1e-12,
+                "{t} {axis}"
+            );
             strongest = strongest.max(expected.abs());
         }
     }
@@ -104,7 +107,7 @@ fn without_a_ramp_the_window_is_a_step_that_rounding_does_not_shift() {
         t += 0.01;
         assert!(k != 12 || t < 0.12, "{t:?}");
         let expected = if (12..50).contains(&k) { 8.0 } else { 0.0 };
-        assert_eq!(human.f_h, [0.0, expected, 0.0], "{k}");
+        assert_eq!(human.outputs.f_h, [0.0, expected, 0.0], "{k}");
     }
 }
 
@@ -117,8 +120,12 @@ fn the_force_after_initialization_is_that_at_the_start_time() {
     ];
     let human = human(6.0, &segments);
     // 3 sin(2π·0.25·6 + π/6) = −3 sin(π/6) = −1.5; 2·(6 − 5)/4 = 0.5; the third has just closed.
-    assert!((human.f_h[0] + 1.0).abs() < 1e-14, "{:?}", human.f_h);
-    assert_eq!((human.f_h[1], human.f_h[2]), (0.0, 0.0));
+    assert!(
+        (human.outputs.f_h[0] + 1.0).abs() < 1e-14,
+        "{:?}",
+        human.outputs.f_h
+    );
+    assert_eq!((human.outputs.f_h[1], human.outputs.f_h[2]), (0.0, 0.0));
 }
 
 #[test]
@@ -134,8 +141,8 @@ fn many_small_steps_and_one_large_one_show_the_same_force() {
             step(&mut small, t + f64::from(i) / 1024.0, 1.0 / 1024.0);
         }
         step(&mut large, t, 0.125);
-        assert_eq!(small.f_h, large.f_h);
-        assert_ne!(small.f_h, [0.0; 3]);
+        assert_eq!(small.outputs.f_h, large.outputs.f_h);
+        assert_ne!(small.outputs.f_h, [0.0; 3]);
     }
 }
 
@@ -161,5 +168,8 @@ fn all_sixteen_segments_are_summed() {
             .map(|i| f64::from(1 << i))
             .sum()
     };
-    assert_eq!(human(0.5, &segments).f_profile, [sum(0), sum(1), sum(2)]);
+    assert_eq!(
+        human(0.5, &segments).outputs.f_profile,
+        [sum(0), sum(1), sum(2)]
+    );
 }

@@ -3,6 +3,7 @@
 use declaration::{Access, Causality, Declare, Variable};
 use export::{Log, Model};
 use human_operator::HumanOperator;
+use human_operator::rows::Inputs;
 use std::collections::BTreeSet;
 
 fn initialized(mut human: HumanOperator) -> Result<HumanOperator, String> {
@@ -37,19 +38,19 @@ fn a_refused_parameter_is_named_with_its_value_and_what_was_expected() {
             h.delay = 1.5
         }),
         ("segment[16].axis = 4, expected a value from 1 to 3", |h| {
-            h.segment.axis[15] = 4
+            h.segments[15].axis = 4
         }),
         (
             "segment[2].kind = 3, expected an item of SegmentKind: 1 sine, 2 constant",
-            |h| h.segment.kind[1] = 3,
+            |h| h.segments[1].kind = 3,
         ),
         (
             "segment[3].ramp = -0.5 s, expected a value from 0 to 1000000000",
-            |h| h.segment.ramp[2] = -0.5,
+            |h| h.segments[2].ramp = -0.5,
         ),
         (
             "segment[1].t_off = 2 s, expected at least segment[1].t_on = 5 s",
-            |h| (h.segment.t_on[0], h.segment.t_off[0]) = (5.0, 2.0),
+            |h| (h.segments[0].t_on, h.segments[0].t_off) = (5.0, 2.0),
         ),
     ] {
         assert_eq!(refused(change), text);
@@ -59,13 +60,16 @@ fn a_refused_parameter_is_named_with_its_value_and_what_was_expected() {
 #[test]
 fn a_second_initialization_starts_from_parameters_and_inputs_alone() {
     let mut human = HumanOperator {
-        p: [0.4, 0.0, 0.0],
+        inputs: Inputs {
+            p: [0.4, 0.0, 0.0],
+            ..Inputs::default()
+        },
         k_h: 100.0,
         delay: 0.2,
         ..HumanOperator::default()
     };
     human = initialized(human).unwrap();
-    human.p[0] = 0.5;
+    human.inputs.p[0] = 0.5;
     human.k_h = 200.0;
     let again = initialized(human.clone()).unwrap();
     let fresh = initialized(HumanOperator {
@@ -73,7 +77,7 @@ fn a_second_initialization_starts_from_parameters_and_inputs_alone() {
         ..human
     });
     assert_eq!(again, fresh.unwrap());
-    assert_eq!(again.f_h, [0.0; 3]);
+    assert_eq!(again.outputs.f_h, [0.0; 3]);
 }
 
 fn outputs(row: &Variable<HumanOperator>, human: &HumanOperator) -> Vec<u64> {
@@ -103,19 +107,21 @@ fn change(row: &Variable<HumanOperator>, i: usize, human: &mut HumanOperator) ->
 fn declared_initial_dependencies_are_the_true_ones() {
     // Starts at which everything that can matter does: half-way in both ramps, the hand on, the hand just off.
     let mut base = HumanOperator {
-        p: [0.1, 0.2, 0.3],
-        dp: [0.1, 0.2, 0.3],
+        inputs: Inputs {
+            p: [0.1, 0.2, 0.3],
+            dp: [0.1, 0.2, 0.3],
+        },
         k_h: 10.0,
         b_h: 1.0,
         delay: 0.1,
         ..HumanOperator::default()
     };
     for i in 0..3 {
-        base.segment.amplitude[i] = 2.0;
-        base.segment.t_on[i] = -0.2;
-        base.segment.t_off[i] = -0.1;
-        base.segment.ramp[i] = 0.5;
-        base.segment.phase[i] = 0.3;
+        base.segments[i].amplitude = 2.0;
+        base.segments[i].t_on = -0.2;
+        base.segments[i].t_off = -0.1;
+        base.segments[i].ramp = 0.5;
+        base.segments[i].phase = 0.3;
     }
     let elsewhere = HumanOperator {
         intended_from_start: false,

@@ -1,38 +1,23 @@
 //! Initialize and step.
 
 use crate::Testbed;
-use crate::variables::SUBSTEP;
+use crate::rows::{Outputs, POSITION_SERVO, TORQUE};
 use export::{Log, Model, Refusal, Step};
-use mechanics::drive::{Command, Drive};
-use mechanics::testbed::{self as plant, Forces, Parameters};
+use mechanics::parameter::in_range;
+use mechanics::testbed::{self as plant, Forces};
 
 impl Model for Testbed {
     fn initialize(&mut self, _start_time: f64, _log: &mut Log<'_>) -> Result<(), Refusal> {
-        SUBSTEP.check(self.substep).map_err(Refusal::new)?;
-        Drive::GAIN
-            .check(self.drive.servo.K)
-            .map_err(Refusal::new)?;
-        Drive::RATIO
-            .check(self.drive.servo.K_P)
-            .map_err(Refusal::new)?;
-        Drive::FORCE
-            .check(self.drive.servo.tau_max)
-            .map_err(Refusal::new)?;
-        if !matches!(self.drive.mode, 1 | 2) {
+        if ![TORQUE, POSITION_SERVO].contains(&self.mode) {
             return Err(Refusal(format!(
-                "drive.mode = {}: expected 1 (torque) or 2 (position_servo)",
-                self.drive.mode
+                "drive.mode = {}: expected {TORQUE} (torque) or {POSITION_SERVO} (position_servo)",
+                self.mode
             )));
         }
-        let parameters = Parameters {
-            M: self.M,
-            friction: self.friction,
-            wall: self.wall,
-        };
-        self.plant =
-            plant::Testbed::new(parameters, self.q_start, self.dq_start).map_err(Refusal::new)?;
-        self.tau_drive = 0.0;
-        self.show();
+        in_range(self).map_err(Refusal::new)?;
+        self.plant = plant::Testbed::new(self.parameters, self.start.q, self.start.dq)
+            .map_err(Refusal::new)?;
+        self.show(0.0);
         Ok(())
     }
 
@@ -42,29 +27,24 @@ impl Model for Testbed {
 
     fn step(&mut self, step: Step, _log: &mut Log<'_>) -> Result<(), Refusal> {
         let (n, dt) = step.substeps(self.substep);
-        let (tau_a, tau_h, tau_d) = (self.tau_a, self.tau_h, self.tau_d);
-        let forces = Forces {
-            tau_a,
-            tau_h,
-            tau_d,
-        };
-        self.tau_drive = if self.drive.mode == 2 {
-            let command = Command {
-                q_d: self.q_d,
-                dq_d: self.dq_d,
-            };
+        let tau_drive = if self.mode == POSITION_SERVO {
             self.plant
-                .advance_driven(&self.drive.servo, &command, &forces, n, dt)
+                .advance_driven(&self.drive, &self.command, &self.forces, n, dt)
         } else {
-            self.plant.advance(&forces, n, dt);
-            tau_a
+            self.plant.advance(&self.forces, n, dt);
+            self.forces.tau_a
         };
-        self.show();
-        if !(self.q.is_finite() && self.dq.is_finite() && self.energy.residual.is_finite()) {
+        self.show(tau_drive);
+        let Outputs { q, dq, energy, .. } = &self.outputs;
+        if !(q.is_finite() && dq.is_finite() && energy.residual.is_finite()) {
+            let Forces {
+                tau_a,
+                tau_h,
+                tau_d,
+            } = self.forces;
             return Err(Refusal(format!(
-                "motion left the range of numbers: q = {:?} m, dq = {:?} m/s, \
+                "motion left the range of numbers: q = {q:?} m, dq = {dq:?} m/s, \
                  after tau_a = {tau_a:?} N, tau_h = {tau_h:?} N, tau_d = {tau_d:?} N",
-                self.q, self.dq
             )));
         }
         Ok(())
@@ -72,13 +52,17 @@ impl Model for Testbed {
 }
 
 impl Testbed {
-    /// Outputs from the plant's state. The load cell sees the human's force alone, as it was held.
-    fn show(&mut self) {
-        self.q = self.plant.q();
-        self.dq = self.plant.dq();
-        self.tau_h_measured = self.tau_h;
-        self.tau_e = self.plant.tau_e();
-        self.tau_f = self.plant.tau_f();
-        self.energy = self.plant.energy();
+    /// Outputs from the plant's state. The load cell sees the human's force alone, as it was held; `tau_drive` (N) is the
+    /// mean of the actuator's.
+    fn show(&mut self, tau_drive: f64) {
+        self.outputs = Outputs {
+            q: self.plant.q(),
+            dq: self.plant.dq(),
+            tau_h_measured: self.forces.tau_h,
+            tau_e: self.plant.tau_e(),
+            tau_f: self.plant.tau_f(),
+            energy: self.plant.energy(),
+            tau_drive,
+        };
     }
 }

@@ -3,16 +3,18 @@
 #![allow(non_snake_case, reason = "the paper's symbols")]
 
 use export::{Log, Model, Step};
+use mechanics::drive::Command;
 use mechanics::friction::Friction;
+use mechanics::testbed::Forces;
 use mechanics::wall::Wall;
 use testbed::Testbed;
 
 /// Without friction and wall, the position drive on.
 fn driven(change: impl FnOnce(&mut Testbed)) -> Testbed {
     let mut plant = Testbed::default();
-    plant.drive.mode = 2;
-    plant.friction = Friction { F_c: 0.0, b: 0.0 };
-    plant.wall.q = Wall::NONE;
+    plant.mode = 2;
+    plant.parameters.friction = Friction { F_c: 0.0, b: 0.0 };
+    plant.parameters.wall.q = Wall::NONE;
     change(&mut plant);
     plant.initialize(0.0, &mut Log::silent()).unwrap();
     plant
@@ -35,7 +37,7 @@ fn the_drive_follows_the_second_order_response_of_its_loop() {
     let (M, K, K_P, q_d) = (6.0_f64, 30.0, 10.0, 0.01);
     let (omega, zeta) = ((K * K_P / M).sqrt(), K / (2.0 * (M * K * K_P).sqrt()));
     let damped = omega * (1.0 - zeta * zeta).sqrt();
-    let mut plant = driven(|p| (p.q_d, p.substep) = (q_d, 1e-6));
+    let mut plant = driven(|p| (p.command.q_d, p.substep) = (q_d, 1e-6));
     for k in 1..=20 {
         run(&mut plant, 0.05, 1);
         let t = 0.05 * f64::from(k);
@@ -43,43 +45,46 @@ fn the_drive_follows_the_second_order_response_of_its_loop() {
         let exact = q_d * (1.0 - (-zeta * omega * t).exp() * swing);
         // Sampled force and backward Euler, both first order: ω_n dt = 7e-6 of the step of 0.01 m, some t/ω long.
         assert!(
-            (plant.q - exact).abs() < 5e-5 * q_d,
+            (plant.outputs.q - exact).abs() < 5e-5 * q_d,
             "{t}: {}",
-            plant.q - exact
+            plant.outputs.q - exact
         );
     }
 }
 
 #[test]
 fn tau_drive_is_the_mean_force_of_the_step_and_its_momentum_is_the_masss() {
-    let mut plant = driven(|p| (p.q_d, p.dq_d) = (0.02, 0.3));
+    let mut plant = driven(|p| (p.command.q_d, p.command.dq_d) = (0.02, 0.3));
     for _ in 0..50 {
-        let before = plant.dq;
+        let before = plant.outputs.dq;
         run(&mut plant, 0.002, 1);
-        let momentum = plant.M * (plant.dq - before);
-        assert!((plant.tau_drive * 0.002 - momentum).abs() < 1e-14); // 25 roundings of some 1e-2 N·s
+        let momentum = plant.parameters.M * (plant.outputs.dq - before);
+        assert!((plant.outputs.tau_drive * 0.002 - momentum).abs() < 1e-14); // 25 roundings of some 1e-2 N·s
     }
-    assert!(plant.tau_drive.abs() > 0.1);
+    assert!(plant.outputs.tau_drive.abs() > 0.1);
 }
 
 #[test]
 fn the_drive_stays_within_its_limit_and_does_not_use_tau_a() {
-    let mut plant = driven(|p| (p.q_d, p.drive.servo.tau_max, p.tau_a) = (100.0, 2.0, 9.0));
+    let mut plant =
+        driven(|p| (p.command.q_d, p.drive.tau_max, p.forces.tau_a) = (100.0, 2.0, 9.0));
     run(&mut plant, 0.002, 10);
-    assert!((plant.tau_drive - 2.0).abs() < 1e-14); // mean of 25 equal numbers
-    assert!(plant.energy.work_tau_a > 0.0 && plant.energy.residual.abs() < 1e-15);
+    assert!((plant.outputs.tau_drive - 2.0).abs() < 1e-14); // mean of 25 equal numbers
+    assert!(plant.outputs.energy.work_tau_a > 0.0 && plant.outputs.energy.residual.abs() < 1e-15);
     // Backward Euler: half a substep of 8e-5 s at dq beyond ½ a t².
     let (a, t) = (2.0 / 6.0, 0.02);
-    assert!((plant.q - 0.5 * a * t * (t + 8e-5)).abs() < 1e-15);
+    assert!((plant.outputs.q - 0.5 * a * t * (t + 8e-5)).abs() < 1e-15);
 }
 
 #[test]
 fn in_torque_mode_the_command_changes_nothing_and_tau_drive_is_tau_a() {
     let run_with = |q_d, dq_d| {
         let mut plant = Testbed {
-            tau_a: 3.0,
-            q_d,
-            dq_d,
+            forces: Forces {
+                tau_a: 3.0,
+                ..Forces::default()
+            },
+            command: Command { q_d, dq_d },
             ..Testbed::default()
         };
         plant.initialize(0.0, &mut Log::silent()).unwrap();
@@ -87,7 +92,13 @@ fn in_torque_mode_the_command_changes_nothing_and_tau_drive_is_tau_a() {
         plant
     };
     let (plain, told) = (run_with(0.0, 0.0), run_with(7.0, -3.0));
-    assert_eq!((plain.q, plain.dq), (told.q, told.dq));
-    assert_eq!(plain.energy, told.energy);
-    assert_eq!((plain.tau_drive, told.tau_drive), (3.0, 3.0));
+    assert_eq!(
+        (plain.outputs.q, plain.outputs.dq),
+        (told.outputs.q, told.outputs.dq)
+    );
+    assert_eq!(plain.outputs.energy, told.outputs.energy);
+    assert_eq!(
+        (plain.outputs.tau_drive, told.outputs.tau_drive),
+        (3.0, 3.0)
+    );
 }

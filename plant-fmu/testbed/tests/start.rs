@@ -3,6 +3,7 @@
 use declaration::{Access, Causality, Declare, Variable};
 use export::{Log, Model};
 use mechanics::Energy;
+use mechanics::testbed::{Forces, Start};
 use testbed::Testbed;
 
 fn initialized(mut plant: Testbed) -> Result<Testbed, String> {
@@ -15,19 +16,26 @@ fn initialized(mut plant: Testbed) -> Result<Testbed, String> {
 #[test]
 fn outputs_show_the_start_state() {
     let mut plant = initialized(Testbed {
-        q_start: 0.1,
-        dq_start: -2.0,
-        tau_h: 3.0,
+        start: Start { q: 0.1, dq: -2.0 },
+        forces: Forces {
+            tau_h: 3.0,
+            ..Forces::default()
+        },
         ..Testbed::default()
     })
     .unwrap();
     assert_eq!(
-        (plant.q, plant.dq, plant.tau_h_measured, plant.tau_e),
+        (
+            plant.outputs.q,
+            plant.outputs.dq,
+            plant.outputs.tau_h_measured,
+            plant.outputs.tau_e
+        ),
         (0.1, -2.0, 3.0, 0.0)
     );
-    assert_eq!(plant.tau_f, 0.64 + 0.19 * 2.0);
+    assert_eq!(plant.outputs.tau_f, 0.64 + 0.19 * 2.0);
     assert_eq!(
-        plant.energy,
+        plant.outputs.energy,
         Energy {
             kinetic: 12.0,
             ..Energy::default()
@@ -35,11 +43,16 @@ fn outputs_show_the_start_state() {
     );
 
     // A second initialization, after a change, starts from parameters and inputs alone.
-    plant.q_start = 0.2;
-    plant.dq_start = 0.0;
+    plant.start.q = 0.2;
+    plant.start.dq = 0.0;
     let again = initialized(plant).unwrap();
     assert_eq!(
-        (again.q, again.dq, again.tau_f, again.energy),
+        (
+            again.outputs.q,
+            again.outputs.dq,
+            again.outputs.tau_f,
+            again.outputs.energy
+        ),
         (0.2, 0.0, 0.0, Energy::default())
     );
 }
@@ -49,15 +62,23 @@ fn start_values_are_accepted_and_are_the_papers() {
     let plant = initialized(Testbed::default()).unwrap();
     assert_eq!(plant, Testbed::default());
     assert_eq!(
-        (plant.M, plant.friction.F_c, plant.friction.b),
+        (
+            plant.parameters.M,
+            plant.parameters.friction.F_c,
+            plant.parameters.friction.b
+        ),
         (6.0, 0.64, 0.19)
     );
     assert_eq!(
-        (plant.wall.q, plant.wall.k, plant.wall.c),
+        (
+            plant.parameters.wall.q,
+            plant.parameters.wall.k,
+            plant.parameters.wall.c
+        ),
         (0.3, 1e5, 300.0)
     );
     assert_eq!(
-        (plant.q_start, plant.dq_start, plant.substep),
+        (plant.start.q, plant.start.dq, plant.substep),
         (0.0, 0.0, 8e-5)
     );
 }
@@ -70,23 +91,23 @@ fn a_refused_parameter_is_named_with_its_value_and_range() {
         initialized(plant).unwrap_err()
     };
     assert_eq!(
-        refused(|p| p.M = -6.0),
+        refused(|p| p.parameters.M = -6.0),
         "M = -6.0 kg: expected 0.001 to 1000000.0 kg"
     );
     assert_eq!(
-        refused(|p| p.drive.servo.K = -1.0),
+        refused(|p| p.drive.K = -1.0),
         "drive.K = -1.0 N.s/m: expected 0.0 to 1000000.0 N.s/m"
     );
     assert_eq!(
-        refused(|p| p.drive.servo.K_P = f64::NAN),
+        refused(|p| p.drive.K_P = f64::NAN),
         "drive.K_P = NaN 1/s: expected 0.0 to 1000000.0 1/s"
     );
     assert_eq!(
-        refused(|p| p.drive.servo.tau_max = -0.5),
+        refused(|p| p.drive.tau_max = -0.5),
         "drive.tau_max = -0.5 N: expected 0.0 to 1000000.0 N"
     );
     assert_eq!(
-        refused(|p| p.drive.mode = 0),
+        refused(|p| p.mode = 0),
         "drive.mode = 0: expected 1 (torque) or 2 (position_servo)"
     );
     assert_eq!(
@@ -94,7 +115,7 @@ fn a_refused_parameter_is_named_with_its_value_and_range() {
         "substep = 0.0 s: expected 1e-7 to 0.01 s"
     );
     assert_eq!(
-        refused(|p| p.q_start = 0.5),
+        refused(|p| p.start.q = 0.5),
         "q_start = 0.5 m: expected at most wall.q = 0.3 m, the mass starts outside the wall"
     );
 }
@@ -108,7 +129,7 @@ fn real(row: &Variable<Testbed>, plant: &Testbed) -> f64 {
 fn declared_initial_dependencies_are_the_true_ones() {
     // A start at which everything that can matter does: moving, away from the wall.
     let base = Testbed {
-        dq_start: 0.5,
+        start: Start { q: 0.0, dq: 0.5 },
         ..Testbed::default()
     };
     let rows = Testbed::DESCRIPTION.variables;

@@ -1,6 +1,7 @@
 //! Communication steps: any length, exact ends, inputs held, state saved and restored.
 
 use export::{Log, Model, Step};
+use mechanics::testbed::{Forces, Start};
 use mechanics::wall::Wall;
 use testbed::Testbed;
 
@@ -25,11 +26,12 @@ fn step(plant: &mut Testbed, t: f64, h: f64) {
 /// Lands on the wall within 20 ms.
 fn before_the_wall() -> Testbed {
     started(Testbed {
-        q_start: 0.295,
-        dq_start: 0.5,
-        tau_a: 3.0,
-        tau_h: -1.0,
-        tau_d: 0.5,
+        start: Start { q: 0.295, dq: 0.5 },
+        forces: Forces {
+            tau_a: 3.0,
+            tau_h: -1.0,
+            tau_d: 0.5,
+        },
         ..Testbed::default()
     })
 }
@@ -48,16 +50,12 @@ fn one_step_of_10_ms_equals_five_of_2_ms_bit_for_bit() {
             postcard::to_allocvec(&five).unwrap()
         );
     }
-    assert!(one.energy.loss_wall > 0.0);
+    assert!(one.outputs.energy.loss_wall > 0.0);
 }
 
 #[test]
 fn a_step_ends_exactly_at_its_end_whatever_its_length() {
     // Free flight at constant velocity: q = dq_start · h, so a missing or extra substep would show.
-    let wall = Wall {
-        q: Wall::NONE,
-        ..Wall::clone(&Testbed::default().wall)
-    };
     for h in [
         1e-9,
         7.9e-5,
@@ -67,20 +65,18 @@ fn a_step_ends_exactly_at_its_end_whatever_its_length() {
         0.123_456,
         3.0,
     ] {
-        let mut plant = Testbed {
-            wall,
-            dq_start: 0.25,
-            ..Testbed::default()
-        };
-        plant.friction.F_c = 0.0;
-        plant.friction.b = 0.0;
+        let mut plant = Testbed::default();
+        plant.parameters.wall.q = Wall::NONE;
+        plant.start.dq = 0.25;
+        plant.parameters.friction.F_c = 0.0;
+        plant.parameters.friction.b = 0.0;
         let mut plant = started(plant);
         step(&mut plant, 0.0, h);
         // Rounding of the step size to 1/n of h, and of the product.
         assert!(
-            (plant.q / (0.25 * h) - 1.0).abs() < 1e-15,
+            (plant.outputs.q / (0.25 * h) - 1.0).abs() < 1e-15,
             "{h}: {:e}",
-            plant.q / (0.25 * h) - 1.0
+            plant.outputs.q / (0.25 * h) - 1.0
         );
     }
 }
@@ -96,27 +92,35 @@ fn the_time_of_the_importer_does_not_matter_to_a_plant_without_clock() {
 #[test]
 fn the_load_cell_shows_the_humans_force_as_held_during_the_step() {
     let mut plant = before_the_wall();
-    plant.tau_h = 2.0;
-    plant.tau_d = 7.0;
-    assert_eq!(plant.tau_h_measured, -1.0); // set, not yet stepped: no direct feedthrough
+    plant.forces.tau_h = 2.0;
+    plant.forces.tau_d = 7.0;
+    assert_eq!(plant.outputs.tau_h_measured, -1.0); // set, not yet stepped: no direct feedthrough
     step(&mut plant, 0.0, 0.002);
-    assert_eq!(plant.tau_h_measured, 2.0); // and not the disturbance
+    assert_eq!(plant.outputs.tau_h_measured, 2.0); // and not the disturbance
 }
 
 #[test]
 fn each_input_pushes_along_plus_q_and_books_its_own_work() {
     for input in 0..3 {
         let mut plant = started(Testbed::default());
-        *[&mut plant.tau_a, &mut plant.tau_h, &mut plant.tau_d][input] = 2.0;
+        *[
+            &mut plant.forces.tau_a,
+            &mut plant.forces.tau_h,
+            &mut plant.forces.tau_d,
+        ][input] = 2.0;
         step(&mut plant, 0.0, 0.1);
-        assert!(plant.q > 0.0 && plant.dq > 0.0);
+        assert!(plant.outputs.q > 0.0 && plant.outputs.dq > 0.0);
         let works = [
-            plant.energy.work_tau_a,
-            plant.energy.work_tau_h,
-            plant.energy.work_tau_d,
+            plant.outputs.energy.work_tau_a,
+            plant.outputs.energy.work_tau_h,
+            plant.outputs.energy.work_tau_d,
         ];
         for (i, work) in works.into_iter().enumerate() {
-            let expected = if i == input { 2.0 * plant.q } else { 0.0 };
+            let expected = if i == input {
+                2.0 * plant.outputs.q
+            } else {
+                0.0
+            };
             assert!((work - expected).abs() < 1e-15, "{works:?}");
         }
     }
@@ -126,7 +130,7 @@ fn each_input_pushes_along_plus_q_and_books_its_own_work() {
 fn a_saved_state_continues_bit_for_bit() {
     let mut plant = before_the_wall();
     step(&mut plant, 0.0, 0.012); // in contact
-    assert!(plant.tau_e < 0.0);
+    assert!(plant.outputs.tau_e < 0.0);
     let bytes = postcard::to_allocvec(&plant).unwrap();
     let mut restored: Testbed = postcard::from_bytes(&bytes).unwrap();
     for k in 0..100 {
@@ -143,7 +147,10 @@ fn a_saved_state_continues_bit_for_bit() {
 #[test]
 fn a_force_that_leaves_the_range_of_numbers_fails_the_step_and_is_named() {
     let mut plant = started(Testbed {
-        tau_h: 1e308,
+        forces: Forces {
+            tau_h: 1e308,
+            ..Forces::default()
+        },
         ..Testbed::default()
     });
     let refusal = plant

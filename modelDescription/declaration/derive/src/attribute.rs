@@ -32,6 +32,7 @@ pub struct Part {
     pub each: bool,
     pub from: Option<Expr>,
     pub prefix: Option<Expr>,
+    pub about: Option<Expr>,
 }
 
 impl Row {
@@ -140,8 +141,10 @@ fn part(attribute: &Attribute) -> Result<Part> {
             part.from = Some(meta.value()?.parse()?);
         } else if meta.path.is_ident("prefix") {
             part.prefix = Some(meta.value()?.parse()?);
+        } else if meta.path.is_ident("about") {
+            part.about = Some(meta.value()?.parse()?);
         } else {
-            return Err(meta.error("expected each, from or prefix"));
+            return Err(meta.error("expected each, from, prefix or about"));
         }
         Ok(())
     })?;

@@ -9,6 +9,7 @@
 //! | `#[part(each)]` | the field is an array of structs: their rows become vectors |
 //! | `#[part(from = 40)]` | the part's numbers count from there |
 //! | `#[part(prefix = "left.")]` | what comes before the part's names |
+//! | `#[part(about = [("f_h[i]", "…")])]` | another description of some of its rows, by their names without prefix |
 //!
 //! and without any of them it is none: a state that the interface does not show. After the number may stand
 //!

@@ -31,7 +31,12 @@ pub fn derive(item: &DeriveInput) -> Result<TokenStream> {
                 writes.push(quote! { rows[n] = #row; n += 1; });
             }
             Role::Part(part) => {
-                let Part { each, from, prefix } = *part;
+                let Part {
+                    each,
+                    from,
+                    prefix,
+                    about,
+                } = *part;
                 let (of, each) = match (&declared.ty, each) {
                     (Type::Array(array), true) => {
                         let len = &array.len;
@@ -42,11 +47,16 @@ pub fn derive(item: &DeriveInput) -> Result<TokenStream> {
                 };
                 let from = from.map_or(quote!(0), |from| quote!(#from));
                 let prefix = prefix.map_or(quote!(""), |prefix| quote!(#prefix));
+                let about = match about {
+                    None => quote!(&[]),
+                    Some(list @ Expr::Array(_)) => quote!(&#list),
+                    Some(name) => quote!(#name),
+                };
                 counts.push(quote!(<#of as ::declaration::compose::Rows>::ROWS.len()));
                 writes.push(quote! {
                     n = ::declaration::compose::lifted(&mut rows, n, <#of as ::declaration::compose::Rows>::ROWS,
                         ::declaration::compose::Part {
-                            offset: ::core::mem::offset_of!(Self, #field), each: #each, from: #from, prefix: #prefix,
+                            offset: ::core::mem::offset_of!(Self, #field), each: #each, from: #from, prefix: #prefix, about: #about,
                         });
                 });
             }

@@ -1,47 +1,66 @@
 //! The energy balance: what is stored, and the sums of what crossed the boundaries.
 
+use declaration::Rows;
+
 use super::flow::Flow;
 use super::parameters::Parameters;
 use super::rigid_body::RigidBody;
 use super::state::State;
 use crate::Sum;
 
-/// Energy balance since the start (J).
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+/// Energy balance since the start (J); each sum adds up one term of [`Flow`]. The residual is the error of M, C, g and J being
+/// taken at the begin of a substep.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Rows)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Energy {
-    /// ½ dqᵀ M dq, a held payload included.
+    /// kinetic energy of arm, rotors and a held payload
+    #[output(0, name = "energy.kinetic", unit = JOULE, from = KINETIC)]
     pub kinetic: f64,
-    /// Potential energy of the links and a held payload, 0 at the height of the shoulder.
+    /// potential energy of the links and a held payload, 0 at the shoulder
+    #[output(1, name = "energy.potential", unit = JOULE, from = POTENTIAL)]
     pub potential: f64,
-    /// Stored in the surfaces: Σ ½ k s².
+    /// energy stored in table and wall
+    #[output(2, name = "energy.surface", unit = JOULE)]
     pub surface: f64,
-    /// Work of the torques that arrive at the joints.
+    /// work of tau_applied on the arm since the start
+    #[output(3, name = "energy.work_tau", unit = JOULE)]
     pub work_tau: f64,
-    /// Work of the human at the handle.
+    /// work of f_h on the arm since the start
+    #[output(4, name = "energy.work_f_h", unit = JOULE)]
     pub work_f_h: f64,
-    /// Work of the disturbance at the pad.
+    /// work of f_d on the arm since the start
+    #[output(5, name = "energy.work_f_d", unit = JOULE)]
     pub work_f_d: f64,
-    /// Brought by payloads, less what they took along.
+    /// energy that payloads brought when they were gripped, less what they took along when they left
+    #[output(6, name = "energy.payload", unit = JOULE)]
     pub payload: f64,
-    /// Heat of dry friction in the joints.
+    /// heat of dry friction in the joints since the start
+    #[output(7, name = "energy.loss_friction", unit = JOULE)]
     pub loss_friction: f64,
-    /// Heat of viscous friction in the joints.
+    /// heat of viscous friction in the joints since the start
+    #[output(8, name = "energy.loss_viscous", unit = JOULE)]
     pub loss_viscous: f64,
-    /// Lost at the stops.
+    /// lost at the joints' stops since the start
+    #[output(9, name = "energy.loss_stop", unit = JOULE)]
     pub loss_stop: f64,
-    /// Heat of the surfaces' dampers.
+    /// heat of the dampers in table and wall since the start
+    #[output(10, name = "energy.loss_surface", unit = JOULE)]
     pub loss_surface: f64,
-    /// Heat of friction on the surfaces.
+    /// heat of friction on table and wall since the start
+    #[output(11, name = "energy.loss_rub", unit = JOULE)]
     pub loss_rub: f64,
-    /// Lost in landings on a surface, first order in the substep; see [`Flow::loss_impact`].
+    /// lost in landings on table and wall since the start, of first order in the substep
+    #[output(12, name = "energy.loss_impact", unit = JOULE)]
     pub loss_impact: f64,
-    /// Lost in gripping payloads.
+    /// lost in gripping payloads since the start: momentum is kept, energy is not
+    #[output(13, name = "energy.loss_grip", unit = JOULE)]
     pub loss_grip: f64,
-    /// The integrator's own loss, first order in the substep; see [`Flow::loss_step`].
+    /// loss of the integrator (backward Euler) since the start, of first order in the substep
+    #[output(14, name = "energy.loss_step", unit = JOULE)]
     pub loss_step: f64,
-    /// Σ work + payload − Σ loss − (E − E(0)), E = kinetic + potential + surface. No term is defined by it: it is the
-    /// error of M, C, g and J being taken at the begin of a substep, first order in dt.
+    /// works + payload - losses - (kinetic + potential + surface - their start value): of first order in the
+    /// substep, defines no term
+    #[output(15, name = "energy.residual", unit = JOULE)]
     pub residual: f64,
 }
 
@@ -158,3 +177,38 @@ impl Energy {
             + self.loss_step
     }
 }
+
+/// What the kinetic energy follows from at the start.
+const KINETIC: &[&str] = &[
+    "q_start[i]",
+    "dq_start[i]",
+    "A1",
+    "L1",
+    "pad.x",
+    "pad.z",
+    "link.m[i]",
+    "link.x[i]",
+    "link.z[i]",
+    "link.I_xx[i]",
+    "link.I_yy[i]",
+    "link.I_zz[i]",
+    "link.I_xz[i]",
+    "rotor.I[i]",
+    "gear[i]",
+    "payload.m",
+    "payload.attached",
+];
+/// What the potential energy follows from at the start.
+const POTENTIAL: &[&str] = &[
+    "q_start[i]",
+    "A1",
+    "L1",
+    "pad.x",
+    "pad.z",
+    "link.m[i]",
+    "link.x[i]",
+    "link.z[i]",
+    "gravity[i]",
+    "payload.m",
+    "payload.attached",
+];

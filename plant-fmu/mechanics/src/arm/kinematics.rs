@@ -4,25 +4,53 @@
 //! pitch about −y, so that positive pitch lifts. The *yaw frame* is the base frame turned by q₁: the arm always lies in
 //! its x-z plane, at y = 0.
 
+use declaration::{Rows, Start};
 use nalgebra::{Matrix3, Vector3};
 
 /// Lengths of the links and the points of link 3 where forces act.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Rows, Start)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Lengths {
-    /// From the yaw axis forward to the shoulder's pitch axis (m).
+    /// from the yaw axis forward to the shoulder's pitch axis
+    #[parameter(0, name = "A1", unit = METRE, range = 0.0..=10.0, start = 0.06)]
     pub A_1: f64,
-    /// From the shoulder's pitch axis to the elbow's (m).
+    /// from the shoulder's pitch axis to the elbow's
+    #[parameter(1, name = "L1", unit = METRE, range = 1e-2..=10.0, start = 0.32)]
     pub L_1: f64,
+    /// handle, along link 3 from the elbow's axis
+    #[parameter(2, name = "handle.x", unit = METRE, range = 1e-2..=10.0, start = 0.36)]
+    pub handle_x: f64,
+    /// handle, across link 3, up when the link is level
+    #[parameter(3, name = "handle.z", unit = METRE, range = -10.0..=10.0)]
+    pub handle_z: f64,
+    /// pad, along link 3 from the elbow's axis
+    #[parameter(4, name = "pad.x", unit = METRE, range = 1e-2..=10.0, start = 0.36)]
+    pub pad_x: f64,
+    /// pad, across link 3, up when the link is level
+    #[parameter(5, name = "pad.z", unit = METRE, range = -10.0..=10.0, start = -0.12)]
+    pub pad_z: f64,
+}
+
+impl Lengths {
     /// Handle, where f_h acts.
-    pub handle: InPlane,
+    pub fn handle(&self) -> InPlane {
+        InPlane {
+            x: self.handle_x,
+            z: self.handle_z,
+        }
+    }
+
     /// Pad, where contact, payload and f_d act.
-    pub pad: InPlane,
+    pub fn pad(&self) -> InPlane {
+        InPlane {
+            x: self.pad_x,
+            z: self.pad_z,
+        }
+    }
 }
 
 /// A point of link 3 in its frame: origin on the elbow's axis, x along the link, z up when the link is level.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct InPlane {
     /// Along the link (m).
     pub x: f64,

@@ -4,7 +4,7 @@
 //! use mechanics::arm::{Arm, Inputs, Parameters, Start};
 //!
 //! let mut parameters = Parameters::default();
-//! parameters.table.position = -0.45; // the pad starts 93 mm above it
+//! parameters.table.z = -0.45; // the pad starts 93 mm above it
 //! let mut arm = Arm::new(parameters, &Start::default())?;
 //! let start = arm.q();
 //!
@@ -57,7 +57,6 @@ pub mod parameters;
 pub mod payload;
 pub mod plant;
 pub mod problem;
-pub mod ranges;
 mod revision;
 pub mod rigid_body;
 pub mod solver;

@@ -1,120 +1,80 @@
-//! What the arm is made of, and where it starts.
+//! What the arm is made of, and where it starts: one row each, numbered from A1 on.
 
-use super::kinematics::{InPlane, Lengths};
+use declaration::{Rows, Start};
+
+use super::kinematics::Lengths;
 use super::payload::Vacuum;
-use super::rigid_body::{Link, Masses};
+use super::rigid_body::Masses;
 use super::stribeck::Stribeck;
-use super::surface::Surface;
+use super::surface::{Table, Wall};
 
 /// Hard inelastic stops of a joint.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Rows)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Stops {
-    /// Lower stop (rad).
+    /// lower stop of the joint, hard and inelastic
+    #[parameter(20, name = "stop.min[i]", unit = RADIAN, range = -10.0..=10.0)]
     pub min: f64,
-    /// Upper stop (rad).
+    /// upper stop of the joint, at least stop.min
+    #[parameter(21, name = "stop.max[i]", unit = RADIAN, range = -10.0..=10.0)]
     pub max: f64,
 }
 
-/// What the arm is made of. The default is the exoskeleton arm with an empty pad and nothing to touch.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// What the arm is made of. The start values are the exoskeleton arm with an empty pad and nothing to touch.
+#[derive(Clone, Copy, Debug, PartialEq, Rows, Start)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Parameters {
     /// Lengths, handle and pad.
+    #[part]
     pub lengths: Lengths,
     /// Links, rotors, gears, gravity.
+    #[part]
     pub masses: Masses,
     /// Friction of each joint.
+    #[part(each)]
+    #[start([friction(12.0, 16.0, 8.0), friction(14.0, 18.0, 15.0), friction(12.0, 16.0, 8.0)])]
     pub friction: [Stribeck; 3],
     /// Stops of each joint.
+    #[part(each)]
+    #[start([stops(-1.2, 1.2), stops(-2.0, 1.0), stops(0.10, 2.60)])]
     pub stops: [Stops; 3],
-    /// Corner frequency of the torque's first-order lag (Hz); 0 = no lag.
+    /// corner frequency of the torque's first-order lag; 0: no lag
+    #[parameter(22, name = "drive.cutoff", unit = HERTZ, range = 0.0..=1e6, start = 318.0)]
     pub drive_cutoff: f64,
-    /// Mass of the payload (kg), a point at the pad; 0 = none.
+    /// mass of the payload, a point at the pad; 0: none
+    #[parameter(23, name = "payload.m", unit = KILOGRAM, range = 0.0..=1e4)]
     pub payload_m: f64,
     /// The cup that holds the payload.
+    #[part]
     pub vacuum: Vacuum,
-    /// Horizontal surface under the pad; its position is z, −10 m is out of reach.
-    pub table: Surface,
-    /// Vertical surface in front of the pad; its position is x, 10 m is out of reach.
-    pub wall: Surface,
+    /// What is under the pad.
+    #[part]
+    pub table: Table,
+    /// What is in front of the pad.
+    #[part]
+    pub wall: Wall,
 }
 
-/// Where the arm starts.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// Where the arm starts: at rest, handle at (0.44, 0, −0.24) m, no payload.
+#[derive(Clone, Copy, Debug, PartialEq, Rows, Start)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Start {
-    /// Joint angles (rad).
+    /// start angle of the joint, between its stops
+    #[parameter(35, name = "q_start[i]", unit = RADIAN, range = -10.0..=10.0, start = [0.0, -1.48096, 1.70138])]
     pub q: [f64; 3],
-    /// Joint velocities (rad/s).
+    /// start velocity of the joint
+    #[parameter(36, name = "dq_start[i]", unit = RADIAN_PER_SECOND, range = -100.0..=100.0)]
     pub dq: [f64; 3],
-    /// Whether the payload hangs at the pad already.
+    /// whether the payload hangs at the pad from the start on
+    #[parameter(24, name = "payload.attached")]
     pub attached: bool,
 }
 
-impl Default for Start {
-    /// At rest, handle at (0.44, 0, −0.24) m, no payload.
-    fn default() -> Self {
-        Self {
-            q: [0.0, -1.48096, 1.70138],
-            dq: [0.0; 3],
-            attached: false,
-        }
-    }
+const fn friction(F_c: f64, F_s: f64, b: f64) -> Stribeck {
+    let v_s = 0.03;
+    Stribeck { F_c, F_s, v_s, b }
 }
 
-impl Default for Parameters {
-    fn default() -> Self {
-        let link = |m, (x, z), [I_xx, I_yy, I_zz, I_xz]: [f64; 4]| Link {
-            m,
-            x,
-            z,
-            I_xx,
-            I_yy,
-            I_zz,
-            I_xz,
-        };
-        let friction = |F_c, F_s, b| Stribeck {
-            F_c,
-            F_s,
-            v_s: 0.03,
-            b,
-        };
-        let stops = |min, max| Stops { min, max };
-        let surface = |position| Surface {
-            position,
-            k: 1e5,
-            c: 300.0,
-            mu: 0.4,
-        };
-        Self {
-            lengths: Lengths {
-                A_1: 0.06,
-                L_1: 0.32,
-                handle: InPlane { x: 0.36, z: 0.0 },
-                pad: InPlane { x: 0.36, z: -0.12 },
-            },
-            masses: Masses {
-                links: [
-                    link(4.0, (0.03, 0.02), [0.012, 0.012, 0.010, 0.0]),
-                    link(3.5, (0.20, 0.01), [0.006, 0.035, 0.034, 0.001]),
-                    link(2.5, (0.18, -0.03), [0.004, 0.028, 0.027, -0.001]),
-                ],
-                rotor: [2.0e-5; 3],
-                gear: [354.0, 600.0, 354.0],
-                gravity: [0.0, 0.0, -9.81],
-            },
-            friction: [
-                friction(12.0, 16.0, 8.0),
-                friction(14.0, 18.0, 15.0),
-                friction(12.0, 16.0, 8.0),
-            ],
-            stops: [stops(-1.2, 1.2), stops(-2.0, 1.0), stops(0.10, 2.60)],
-            drive_cutoff: 318.0,
-            payload_m: 0.0,
-            vacuum: Vacuum::default(),
-            table: surface(-10.0),
-            wall: surface(10.0),
-        }
-    }
+const fn stops(min: f64, max: f64) -> Stops {
+    Stops { min, max }
 }

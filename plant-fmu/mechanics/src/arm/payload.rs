@@ -3,6 +3,7 @@
 //! The payload is a point mass of no height at the pad. While it is not held it does not exist for the arm: it rests
 //! wherever the pad presses next.
 
+use declaration::{Rows, Start};
 use nalgebra::Vector3;
 
 use super::flow::Flow;
@@ -11,22 +12,15 @@ use super::rigid_body::RigidBody;
 use super::state::Configuration;
 
 /// The vacuum cup.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Rows, Start)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Vacuum {
-    /// Pull beyond which the bond breaks (N).
+    /// pull on the payload beyond which the bond breaks
+    #[parameter(25, name = "vacuum.F_max", unit = NEWTON, range = 0.0..=1e9, start = 450.0)]
     pub F_max: f64,
-    /// Force of the table on the pad beyond which the cup grips (N).
+    /// force of the table on the pad beyond which the cup grips the payload
+    #[parameter(26, name = "vacuum.F_attach", unit = NEWTON, range = 0.0..=1e9, start = 5.0)]
     pub F_attach: f64,
-}
-
-impl Default for Vacuum {
-    fn default() -> Self {
-        Self {
-            F_max: 450.0,
-            F_attach: 5.0,
-        }
-    }
 }
 
 /// What happens to the payload at the end of a substep.

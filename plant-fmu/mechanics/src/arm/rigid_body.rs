@@ -4,42 +4,72 @@
 //! couple with the pitch plane: M is block diagonal. Rotors count by their inertia about their own axis times the gear
 //! ratio squared; the gyroscopic torque of a rotor that is carried by a moving link is left out.
 
+use declaration::{Rows, Start};
 use nalgebra::{Matrix3, Vector3};
 
 use super::kinematics::{InPlane, Lengths, Pose, Reach};
 
 /// A rigid link: centre of mass and inertia about it, in the frame of the link (x along it, z up when it is level).
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Rows)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Link {
-    /// Mass (kg).
+    /// mass of the link
+    #[parameter(6, name = "link.m[i]", unit = KILOGRAM, range = 1e-3..=1e4)]
     pub m: f64,
-    /// Centre of mass along the link (m).
+    /// centre of mass along the link from its joint
+    #[parameter(7, name = "link.x[i]", unit = METRE, range = -10.0..=10.0)]
     pub x: f64,
-    /// Centre of mass across the link (m).
+    /// centre of mass across the link, up when the link is level
+    #[parameter(8, name = "link.z[i]", unit = METRE, range = -10.0..=10.0)]
     pub z: f64,
-    /// Moment of inertia about x (kg·m²).
+    /// moment of inertia about the centre of mass, axis along the link
+    #[parameter(9, name = "link.I_xx[i]", unit = KILOGRAM_SQUARE_METRE, range = 1e-9..=1e4)]
     pub I_xx: f64,
-    /// Moment of inertia about y (kg·m²).
+    /// moment of inertia about the centre of mass, axis of the pitch
+    #[parameter(10, name = "link.I_yy[i]", unit = KILOGRAM_SQUARE_METRE, range = 1e-9..=1e4)]
     pub I_yy: f64,
-    /// Moment of inertia about z (kg·m²).
+    /// moment of inertia about the centre of mass, axis across the link
+    #[parameter(11, name = "link.I_zz[i]", unit = KILOGRAM_SQUARE_METRE, range = 1e-9..=1e4)]
     pub I_zz: f64,
-    /// Element xz of the inertia matrix (kg·m²): −∫ x z dm.
+    // −∫ x z dm
+    /// element xz of the inertia matrix about the centre of mass
+    #[parameter(12, name = "link.I_xz[i]", unit = KILOGRAM_SQUARE_METRE, range = -1e4..=1e4)]
     pub I_xz: f64,
 }
 
 /// What the dynamics is made of.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Rows, Start)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Masses {
     /// The three links.
+    #[part(each)]
+    #[start([
+        link(4.0, (0.03, 0.02), [0.012, 0.012, 0.010, 0.0]),
+        link(3.5, (0.20, 0.01), [0.006, 0.035, 0.034, 0.001]),
+        link(2.5, (0.18, -0.03), [0.004, 0.028, 0.027, -0.001]),
+    ])]
     pub links: [Link; 3],
-    /// Inertia of each rotor with its gear about its own axis (kg·m²).
+    /// inertia of rotor and gear about the rotor axis; at the joint it counts times gear^2
+    #[parameter(13, name = "rotor.I[i]", unit = KILOGRAM_SQUARE_METRE, range = 0.0..=1.0, start = [2.0e-5; 3])]
     pub rotor: [f64; 3],
-    /// Gear ratio of each joint.
+    /// gear ratio
+    #[parameter(14, range = 1.0..=1e4, start = [354.0, 600.0, 354.0])]
     pub gear: [f64; 3],
-    /// Acceleration of gravity, base frame (m/s²).
+    /// acceleration of gravity, base frame
+    #[parameter(15, unit = METRE_PER_SECOND_SQUARED, range = -1e3..=1e3, start = [0.0, 0.0, -9.81])]
     pub gravity: [f64; 3],
+}
+
+const fn link(m: f64, (x, z): (f64, f64), [I_xx, I_yy, I_zz, I_xz]: [f64; 4]) -> Link {
+    Link {
+        m,
+        x,
+        z,
+        I_xx,
+        I_yy,
+        I_zz,
+        I_xz,
+    }
 }
 
 /// M dv/dt + C v + g = τ at one pose.
@@ -81,7 +111,7 @@ impl RigidBody {
         sum.add_upper(two, pose, lengths.A_1, &gravity);
         sum.add_fore(three, pose, lengths, &gravity);
         if payload > 0.0 {
-            let InPlane { x, z } = lengths.pad;
+            let InPlane { x, z } = lengths.pad();
             let (m, I_xx, I_yy, I_zz, I_xz) = (payload, 0.0, 0.0, 0.0, 0.0);
             let point = Link {
                 m,

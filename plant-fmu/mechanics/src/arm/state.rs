@@ -1,5 +1,6 @@
 //! What goes into the arm, where it is, and what it shows.
 
+use declaration::Rows;
 use nalgebra::Vector3;
 
 use super::kinematics::{Point, Pose};
@@ -8,15 +9,20 @@ use super::problem::Path;
 use super::rigid_body::RigidBody;
 
 /// What acts on the arm, held over a run of substeps.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Rows)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Inputs {
-    /// Torques τ_a asked of the drives (N·m), positive as the joints.
+    /// torque asked of the drive, on yaw, shoulder and elbow; positive turns left, lifts, lifts
+    #[input(0, unit = NEWTON_METRE)]
     pub tau_a: [f64; 3],
-    /// Force f_h of the human on the handle, base frame (N).
+    /// force of the human on the arm at the handle, base frame (x forward, y to the left, z up)
+    #[input(1, unit = NEWTON)]
     pub f_h: [f64; 3],
-    /// Force f_d of a disturbance on the pad, base frame (N).
+    /// force on the arm at the pad that no sensor sees, base frame
+    #[input(2, unit = NEWTON)]
     pub f_d: [f64; 3],
-    /// Whether the vacuum is on.
+    /// whether the cup at the pad sucks: it grips what the pad presses on, and lets go when this is false
+    #[input(3)]
     pub vacuum: bool,
 }
 
@@ -73,8 +79,8 @@ impl Place {
         let lengths = &parameters.lengths;
         Self {
             pose,
-            handle: pose.point(lengths, lengths.handle),
-            pad: pose.point(lengths, lengths.pad),
+            handle: pose.point(lengths, lengths.handle()),
+            pad: pose.point(lengths, lengths.pad()),
         }
     }
 }

@@ -1,5 +1,7 @@
 //! Dry friction of a geared joint that grips harder at rest, and viscous friction.
 
+use declaration::Rows;
+
 /// Friction of one joint. On the joint acts τ_f, with −τ_f ∈ F(v) Sgn(v) + b v, Sgn(0) = \[−1, 1\] and
 ///
 /// ```text
@@ -7,16 +9,20 @@
 /// ```
 ///
 /// At rest friction is whatever holds the joint, up to F_s: it does not creep.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Rows)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Stribeck {
-    /// Coulomb friction F_c (N·m).
+    /// Coulomb friction of the joint
+    #[parameter(16, name = "friction.F_c[i]", unit = NEWTON_METRE, range = 0.0..=1e6)]
     pub F_c: f64,
-    /// Stiction F_s ≥ F_c (N·m).
+    /// stiction of the joint, at least friction.F_c
+    #[parameter(17, name = "friction.F_s[i]", unit = NEWTON_METRE, range = 0.0..=1e6)]
     pub F_s: f64,
-    /// Stribeck velocity v_s (rad/s).
+    /// Stribeck velocity: F_c + (F_s - F_c) exp(-(dq/v_s)^2)
+    #[parameter(18, name = "friction.v_s[i]", unit = RADIAN_PER_SECOND, range = 1e-4..=1e3)]
     pub v_s: f64,
-    /// Viscous friction b (N·m·s/rad).
+    /// viscous friction of the joint
+    #[parameter(19, name = "friction.b[i]", unit = NEWTON_METRE_SECOND_PER_RADIAN, range = 0.0..=1e6)]
     pub b: f64,
 }
 

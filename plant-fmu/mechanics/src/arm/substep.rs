@@ -16,8 +16,8 @@ use super::surface::Surface;
 
 impl Parameters {
     /// Table and wall, in the order of [`FACINGS`].
-    pub(crate) fn surfaces(&self) -> [&Surface; 2] {
-        [&self.table, &self.wall]
+    pub(crate) fn surfaces(&self) -> [Surface; 2] {
+        [self.table.surface(), self.wall.surface()]
     }
 
     /// The rigid body at `pose`, with a held payload or without.

@@ -1,8 +1,9 @@
 //! The table under the arm and the wall in front of it.
 
-use crate::wall::Wall;
+use crate::wall;
+use declaration::{Rows, Start};
 
-/// A compliant plane with dry friction. Along the normal it is a [`Wall`]: pushes only, has a deflection of its own.
+/// A compliant plane with dry friction. Along the normal it is a [`Wall`](wall::Wall): pushes only, has a deflection of its own.
 /// Along each tangential axis of the base frame friction opposes the pad's velocity w_t, rigidly:
 ///
 /// ```text
@@ -11,7 +12,6 @@ use crate::wall::Wall;
 ///
 /// (a box; the combined force of both axes reaches √2 μ λ on a diagonal).
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Surface {
     /// Position of the plane (m): z of the table, x of the wall.
     pub position: f64,
@@ -21,6 +21,68 @@ pub struct Surface {
     pub c: f64,
     /// Coefficient of friction μ per tangential axis.
     pub mu: f64,
+}
+
+/// The horizontal surface under the pad.
+#[derive(Clone, Copy, Debug, PartialEq, Rows, Start)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Table {
+    /// height of the table, at most that of the pad at the start; -10: none in reach
+    #[parameter(27, name = "table.z", unit = METRE, range = -1e3..=1e3, start = -10.0)]
+    pub z: f64,
+    /// stiffness of the table
+    #[parameter(28, name = "table.k", unit = NEWTON_PER_METRE, range = 1.0..=1e7, start = 1e5)]
+    pub k: f64,
+    /// damping of the table
+    #[parameter(29, name = "table.c", unit = NEWTON_SECOND_PER_METRE, range = 0.0..=1e5, start = 300.0)]
+    pub c: f64,
+    // More than 1 could jam the arm rigidly (Painlevé), where Coulomb's law has no solution.
+    /// coefficient of friction on the table, for each tangential axis by itself
+    #[parameter(30, name = "table.mu", range = 0.0..=1.0, start = 0.4)]
+    pub mu: f64,
+}
+
+/// The vertical surface in front of the pad.
+#[derive(Clone, Copy, Debug, PartialEq, Rows, Start)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Wall {
+    /// distance of the wall ahead, at least that of the pad at the start; 10: none in reach
+    #[parameter(31, name = "wall.x", unit = METRE, range = -1e3..=1e3, start = 10.0)]
+    pub x: f64,
+    /// stiffness of the wall
+    #[parameter(32, name = "wall.k", unit = NEWTON_PER_METRE, range = 1.0..=1e7, start = 1e5)]
+    pub k: f64,
+    /// damping of the wall
+    #[parameter(33, name = "wall.c", unit = NEWTON_SECOND_PER_METRE, range = 0.0..=1e5, start = 300.0)]
+    pub c: f64,
+    // More than 1 could jam the arm rigidly (Painlevé), where Coulomb's law has no solution.
+    /// coefficient of friction on the wall, for each tangential axis by itself
+    #[parameter(34, name = "wall.mu", range = 0.0..=1.0, start = 0.4)]
+    pub mu: f64,
+}
+
+impl Table {
+    /// As a surface.
+    pub fn surface(&self) -> Surface {
+        Surface {
+            position: self.z,
+            k: self.k,
+            c: self.c,
+            mu: self.mu,
+        }
+    }
+}
+
+impl Wall {
+    /// As a surface.
+    pub fn surface(&self) -> Surface {
+        Surface {
+            position: self.x,
+            k: self.k,
+            c: self.c,
+            mu: self.mu,
+        }
+    }
 }
 
 /// Which way a surface pushes.
@@ -57,8 +119,8 @@ impl Surface {
     }
 
     /// The normal's law.
-    pub(crate) fn wall(&self) -> Wall {
-        Wall {
+    pub(crate) fn wall(&self) -> wall::Wall {
+        wall::Wall {
             q: 0.0,
             k: self.k,
             c: self.c,

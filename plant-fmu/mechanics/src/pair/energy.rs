@@ -1,9 +1,10 @@
 //! The energy balance of both arms and of what ties them together.
 
 use crate::arm::Energy;
+use declaration::Rows;
 
 /// Energy balance since the start (J).
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Rows)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Balance {
     /// Sums over both arms; `loss_step` and `payload` include the bond's share. The residual is that of the whole:
@@ -11,10 +12,17 @@ pub struct Balance {
     /// ```text
     /// Σ work + payload − Σ loss − loss_bond − (E − E(0)),   E = Σ (kinetic + potential + surface) + bond
     /// ```
+    #[part(about = [(
+        "energy.residual",
+        "works + payload - losses - loss_bond - (kinetic + potential + surface + bond - their start value): of first \
+         order in the substep, defines no term",
+    )])]
     pub arms: Energy,
-    /// Stored in the bond: ½ k g².
+    /// energy stored in the payload between the pads
+    #[output(16, name = "energy.bond", unit = JOULE)]
     pub bond: f64,
-    /// Heat of the bond: c Δg²/dt, summed.
+    /// heat in the payload between the pads since the start
+    #[output(17, name = "energy.loss_bond", unit = JOULE)]
     pub loss_bond: f64,
 }
 

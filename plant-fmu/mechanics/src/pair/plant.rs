@@ -1,23 +1,26 @@
 //! The two arms as a plant: built, run, read.
 
+use declaration::Rows;
 use nalgebra::Vector3;
 
 use super::bond::{Bond, Ledger as BondLedger};
 use super::coupling::{Coupled, Coupling, SIGNS};
 use super::energy::{self, Balance};
-use crate::ParameterError;
 use crate::arm::drive::Drive;
 use crate::arm::payload::Event;
 use crate::arm::substep::Moved;
 use crate::arm::{self, Arm, Inputs, Start, solver};
+use crate::parameter::{ParameterError, in_range};
 
 /// What the two arms are made of.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Rows)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Parameters {
     /// Each arm, with its table and wall; its `payload_m` is the whole payload, its `vacuum` one cup.
+    #[part]
     pub arm: arm::Parameters,
     /// What the payload ties together.
+    #[part(from = 37)]
     pub bond: Bond,
 }
 
@@ -51,7 +54,7 @@ impl Pair {
     /// A parameter outside its range; a start beyond a stop or inside a surface.
     pub fn new(parameters: Parameters, start: &Start) -> Result<Self, ParameterError> {
         parameters.arm.check(start)?;
-        parameters.bond.check()?;
+        in_range(&parameters.bond)?;
         Ok(Self::start(parameters, start))
     }
 
