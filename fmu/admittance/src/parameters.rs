@@ -170,6 +170,10 @@ impl From<Objection> for ParameterError {
 ///
 /// # Errors
 /// The first value out of its range.
+#[allow(
+    clippy::useless_conversion,
+    reason = "in single precision a Real is not an f64"
+)]
 pub fn check(
     axis: Option<usize>,
     list: &[(&'static str, Real, Range)],
