@@ -1,6 +1,7 @@
 //! A struct's values held against its rows.
 
-use crate::{Access, Causality, Enumeration, Unit, Variable, unit};
+use crate::unit::NONE;
+use crate::{Access, Causality, Enumeration, Variable};
 
 /// A value that its row does not accept.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -14,7 +15,7 @@ pub struct Objection {
     /// What was expected.
     pub expected: Expected,
     /// Unit of the value and of the bounds.
-    pub unit: Unit,
+    pub unit: &'static str,
     /// Smallest value that the row accepts.
     pub low: f64,
     /// Largest value that the row accepts.
@@ -69,17 +70,17 @@ pub fn first<M>(
 }
 
 /// Unit, smallest and largest accepted value of a row.
-fn bounds<M>(row: &Variable<M>) -> (Unit, f64, f64) {
+fn bounds<M>(row: &Variable<M>) -> (&'static str, f64, f64) {
     match &row.access {
-        Access::Real { unit, range, .. } => (*unit, range.low, range.high),
-        Access::Integer { min, max, .. } => (unit::NONE, (*min).into(), (*max).into()),
+        Access::Real { unit, range, .. } => (unit.name, range.low, range.high),
+        Access::Integer { min, max, .. } => (NONE.name, (*min).into(), (*max).into()),
         Access::Enumeration { of, .. } => {
             let item = |item: Option<&crate::Item>| item.map_or(f64::NAN, |item| item.value.into());
-            (unit::NONE, item(of.items.first()), item(of.items.last()))
+            (NONE.name, item(of.items.first()), item(of.items.last()))
         }
-        Access::Boolean { .. } => (unit::NONE, 0.0, 1.0),
+        Access::Boolean { .. } => (NONE.name, 0.0, 1.0),
         #[cfg(feature = "std")]
-        Access::String { .. } => (unit::NONE, f64::NAN, f64::NAN),
+        Access::String { .. } => (NONE.name, f64::NAN, f64::NAN),
     }
 }
 

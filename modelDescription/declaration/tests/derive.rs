@@ -139,7 +139,7 @@ fn an_objection_has_the_units_and_bounds_of_its_row() {
         change(&mut model);
         let objection =
             check::first(&model, whole(), Causality::Parameter, false).expect_err("refused");
-        (objection.unit.name, objection.low, objection.high)
+        (objection.unit, objection.low, objection.high)
     };
     assert_eq!(refused(|m| m.links[2].x = 1.5), ("m", -1.0, 1.0));
     assert_eq!(refused(|m| m.gain = 0.25), ("1", 0.5, f64::INFINITY));

@@ -25,7 +25,7 @@ fn pressing(F_max: f64) -> ExoskeletonArm {
 #[test]
 fn vacuum_grips_what_the_pad_presses_on_and_lifts_it() {
     let mut arm = pressing(450.0);
-    let light = arm.outputs.rigid_body.clone();
+    let light = arm.outputs.rigid_body;
     arm.inputs.vacuum = true;
     run(&mut arm, 1000, 1010);
     assert!(arm.outputs.attached);

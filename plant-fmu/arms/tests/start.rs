@@ -180,7 +180,7 @@ fn declared_initial_dependencies_are_the_true_ones() {
         {
             for mut other in (0..row.len).flat_map(|i| changed(row, i, &moving)) {
                 if other.initialize(0.0, &mut Log::silent()).is_ok()
-                    && bits(output, &mut other) != bits(output, &mut before)
+                    && bits(output, &other) != bits(output, &before)
                 {
                     found.insert(row.full_name());
                 }

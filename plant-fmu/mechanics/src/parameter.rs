@@ -117,7 +117,7 @@ impl From<Objection> for ParameterError {
             bounds: Bounds {
                 name: objection.name,
                 element: objection.element,
-                unit: objection.unit.name,
+                unit: objection.unit,
                 low: objection.low,
                 high: objection.high,
             },

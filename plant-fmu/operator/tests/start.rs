@@ -144,7 +144,7 @@ fn declared_initial_dependencies_are_the_true_ones() {
                     before.initialize(0.03, &mut Log::silent()).unwrap();
                     if there
                         && changed.initialize(0.03, &mut Log::silent()).is_ok()
-                        && outputs(output, &mut before) != outputs(output, &mut changed)
+                        && outputs(output, &before) != outputs(output, &changed)
                     {
                         found.insert(row.name);
                     }

@@ -11,8 +11,10 @@ use testbed::Testbed;
 
 /// Without friction and wall, the position drive on.
 fn driven(change: impl FnOnce(&mut Testbed)) -> Testbed {
-    let mut plant = Testbed::default();
-    plant.mode = 2;
+    let mut plant = Testbed {
+        mode: 2,
+        ..Testbed::default()
+    };
     plant.parameters.friction = Friction { F_c: 0.0, b: 0.0 };
     plant.parameters.wall.q = Wall::NONE;
     change(&mut plant);
