@@ -179,6 +179,11 @@ pub fn check(
     list: &[(&'static str, Real, Range)],
 ) -> Result<(), ParameterError> {
     for &(name, value, range) in list {
+        let range = if cfg!(feature = "f32") {
+            range.single()
+        } else {
+            range
+        };
         if !range.contains(value.into()) {
             return Err(ParameterError::OutOfRange {
                 name,

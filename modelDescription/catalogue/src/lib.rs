@@ -17,6 +17,7 @@
 //! | [`table`] | what the C host must know of an FMU |
 //! | [`functions`] | the names that a library exports |
 //! | [`header`] | the C header of the law's library |
+//! | [`laws`] | the README's table of the laws |
 //! | [`request`] | what `cargo xtask` asks for: archives from libraries |
 //!
 //! The program `catalogue` answers `cargo xtask`, which so compiles without any model.
@@ -24,6 +25,7 @@
 pub mod fmu;
 pub mod functions;
 pub mod header;
+pub mod laws;
 #[cfg(test)]
 mod pictures;
 pub mod request;

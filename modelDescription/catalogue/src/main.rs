@@ -7,10 +7,11 @@
 //! catalogue tables FOLDER          writes <Name>.txt for the C host
 //! catalogue functions              prints the names of the functions that a library exports
 //! catalogue law-header             prints the C header of the law's library
+//! catalogue laws                   prints the README's table of the laws
 //! ```
 
 use catalogue::request::Request;
-use catalogue::{FMUS, Fmu, functions, header, table};
+use catalogue::{FMUS, Fmu, functions, header, laws, table};
 use std::path::Path;
 use std::process::ExitCode;
 
@@ -18,7 +19,7 @@ use std::process::ExitCode;
 #[path = "../../export/examples/integrator.rs"]
 mod integrator;
 
-const USAGE: &str = "usage: catalogue descriptions | bless | archives REQUESTS | tables FOLDER | functions | law-header";
+const USAGE: &str = "usage: catalogue descriptions | bless | archives REQUESTS | tables FOLDER | functions | law-header | laws";
 
 fn main() -> ExitCode {
     let words: Vec<_> = std::env::args().skip(1).collect();
@@ -32,6 +33,10 @@ fn main() -> ExitCode {
             functions::exported()
                 .iter()
                 .for_each(|name| println!("{name}"));
+            Ok(())
+        }
+        ["laws"] => {
+            println!("{}", laws::table());
             Ok(())
         }
         ["law-header"] => header::header().map(|text| print!("{text}")),

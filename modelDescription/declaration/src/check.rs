@@ -1,5 +1,6 @@
 //! A struct's values held against its rows.
 
+use crate::place::Stored;
 use crate::unit::NONE;
 use crate::{Access, Causality, Enumeration, Variable};
 
@@ -89,6 +90,10 @@ fn objection<M>(model: &M, row: &Variable<M>, i: usize) -> Option<(f64, Expected
     match &row.access {
         Access::Real { range, at, .. } => {
             let value = at.get(model, i);
+            let range = match at.layout().2 {
+                Stored::Single => range.single(),
+                Stored::AsIs | Stored::Word => *range,
+            };
             let accepted = range.contains(value) || (row.may_be_nan && !value.is_finite());
             (!accepted).then_some((value, Expected::Text(range.expected)))
         }

@@ -49,6 +49,16 @@ impl Range {
         }
     }
 
+    /// The same with bounds as single precision has them: what C wrote as `1e-6f` is not below 1e-6.
+    #[must_use]
+    pub const fn single(self) -> Self {
+        Self {
+            low: self.low as f32 as f64,
+            high: self.high as f32 as f64,
+            ..self
+        }
+    }
+
     /// Whether `value` lies in it; NaN and infinity lie in none.
     pub const fn contains(&self, value: f64) -> bool {
         value.is_finite() && self.low <= value && value <= self.high

@@ -261,3 +261,16 @@ fn the_first_value_out_of_its_range_is_named() {
     };
     assert!(check::first(&broken, whole(), Causality::Parameter, true).is_err());
 }
+
+#[test]
+fn the_end_of_a_range_is_in_it_in_single_precision_too() {
+    #[derive(Rows, Start)]
+    struct Single {
+        /// Gain.
+        #[parameter(0, range = POSITIVE, start = 1e-6)]
+        K: f32,
+    }
+    let checked = |K| check::first(&Single { K }, Single::ROWS, Causality::Parameter, false);
+    assert_eq!(checked(1e-6), Ok(()));
+    assert!(checked(0.999e-6).is_err());
+}

@@ -1,0 +1,62 @@
+//! The README's table of the laws, made from the table that computes with them.
+
+use admittance::Law;
+use admittance::law::{Felt, Spring};
+
+/// The table, as it stands in the README between its marks.
+pub fn table() -> String {
+    let mut lines = vec![
+        "| `law` | name | what it is | the nominal feels | spring | tank | forms |".to_owned(),
+        "|---|---|---|---|---|---|---|".to_owned(),
+    ];
+    for law in Law::ALL {
+        let row = law.row();
+        let felt = match row.felt {
+            Felt::Nothing => "nothing",
+            Felt::Coupling => "the whole coupling",
+            Felt::Delivered => "the force that the robot gets",
+        };
+        let spring = match row.spring {
+            Spring::Free => "free",
+            Spring::Limited => "limited",
+            Spring::Slips => "slips at the limit",
+        };
+        let tank = match (row.offered, row.keeps_tank) {
+            (false, _) => "–",
+            (true, false) => "observed",
+            (true, true) => "kept ≥ 0",
+        };
+        let forms = match (row.offered, row.servo) {
+            (false, _) => "testbed",
+            (true, false) => "testbed, arm",
+            (true, true) => "testbed, arm, drive's command",
+        };
+        lines.push(format!(
+            "| {} | `{}` | {} | {felt} | {spring} | {tank} | {forms} |",
+            law.number(),
+            law.name(),
+            row.text
+        ));
+    }
+    lines.join("\n")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_README_has_the_table_of_the_laws() {
+        let readme = std::fs::read_to_string(crate::root().join("README.md")).expect("is there");
+        let begin = "<!-- laws: made from fmu/admittance/src/law.rs -->\n";
+        let block = readme
+            .split_once(begin)
+            .and_then(|(_, rest)| rest.split_once("\n<!-- end -->"))
+            .map(|(block, _)| block);
+        assert!(
+            block == Some(&table()),
+            "expected in README.md:\n{}",
+            table()
+        );
+    }
+}
