@@ -28,8 +28,8 @@ pub fn table() -> String {
         };
         let forms = match (row.offered, row.servo) {
             (false, _) => "testbed",
-            (true, false) => "testbed, arm",
-            (true, true) => "testbed, arm, drive's command",
+            (true, false) => "testbed; arm",
+            (true, true) => "testbed, also as a drive's command; arm",
         };
         lines.push(format!(
             "| {} | `{}` | {} | {felt} | {spring} | {tank} | {forms} |",
