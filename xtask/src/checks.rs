@@ -1,5 +1,6 @@
 //! Everything that is checked, as stages: `cargo xtask test`, and with the distribution `cargo xtask ci`.
 
+use crate::build::SMALLEST;
 use crate::dist;
 use crate::process::{Outcome, answer, build, cargo, program, root, run};
 use crate::schedule::{self, Stage};
@@ -34,9 +35,9 @@ static TEST: [Stage; 14] = [
 ];
 
 /// What `cargo xtask ci` has besides them: see [`dist`].
-static DISTRIBUTION: [Stage; 7] = [
+static DISTRIBUTION: [Stage; 9] = [
     stage("toolchains", &["venv"], dist::toolchains),
-    stage("dist linux64", &["toolchains"], || {
+    stage("dist linux64", &["toolchains", "catalogue"], || {
         dist::platform("linux64")
     }),
     stage("dist win64", &["dist linux64"], || dist::platform("win64")),
@@ -49,11 +50,11 @@ static DISTRIBUTION: [Stage; 7] = [
     stage("dist aarch64-darwin", &["dist darwin64"], || {
         dist::platform("aarch64-darwin")
     }),
-    stage(
-        "dist --check",
-        &["dist aarch64-darwin", "catalogue"],
-        || dist::dist(true),
-    ),
+    stage("dist firmware", &["dist aarch64-darwin"], dist::firmware),
+    stage("dist twice", &["dist firmware"], dist::twice),
+    stage("dist --check", &["dist firmware", "law"], || {
+        dist::dist(true)
+    }),
 ];
 
 /// All tests, with the same packages as in the stages before them, so that none builds again what another has built.
@@ -122,7 +123,8 @@ fn validate() -> Outcome {
     let names = fmus::NAMES.iter();
     run(Venv::ready()?
         .exo(["validate", "--strict"])
-        .args(names.map(|name| format!("target/fmu/{name}.fmu"))))
+        .args(names.map(|name| format!("target/fmu/{name}.fmu")))
+        .arg(format!("target/fmu/test/{SMALLEST}.fmu")))
 }
 
 #[cfg(test)]
@@ -148,7 +150,7 @@ mod tests {
         let stages: Vec<_> = DISTRIBUTION
             .iter()
             .filter_map(|stage| stage.name.strip_prefix("dist "))
-            .filter(|name| !name.starts_with("--"))
+            .filter(|name| !["firmware", "twice", "--check"].contains(name))
             .collect();
         assert_eq!(stages, dist::platforms());
     }

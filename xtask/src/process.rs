@@ -1,6 +1,6 @@
 //! Other programs, and what went wrong with them.
 
-use crate::schedule::BUILT;
+use crate::schedule::in_a_stage;
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitStatus, Stdio};
@@ -137,7 +137,7 @@ pub fn answer(command: &mut Command) -> Option<String> {
 /// # Errors
 /// When cargo fails.
 pub fn built(name: &str) -> Outcome<PathBuf> {
-    if std::env::var_os(BUILT).is_none() {
+    if !in_a_stage() {
         build(name)?;
     }
     let target =

@@ -10,7 +10,7 @@ use std::sync::mpsc::{Sender, channel};
 use std::time::{Duration, Instant};
 
 /// Set in the environment of a stage: programs of this workspace that a stage before it has built need not be built again.
-pub const BUILT: &str = "XTASK_PROGRAMS_ARE_BUILT";
+const BUILT: &str = "XTASK_PROGRAMS_ARE_BUILT";
 
 /// How many stages run at the same time.
 const AT_A_TIME: usize = 2;
@@ -142,6 +142,11 @@ fn in_a_process(name: &'static str) -> Outcome {
     }
 }
 
+/// Whether this process is a stage of a command that runs several: what stands before it is built.
+pub fn in_a_stage() -> bool {
+    std::env::var_os(BUILT).is_some()
+}
+
 /// `cargo xtask stage NAME`: the stage in this process.
 ///
 /// # Errors
@@ -153,7 +158,7 @@ pub fn one(stages: &[&'static Stage], name: &str) -> Outcome {
         Failure::Found(format!("no stage {name}: expected {}", names.join(", ")))
     })?;
     let outcome = (stage.work)();
-    if std::env::var_os(BUILT).is_some()
+    if in_a_stage()
         && let Some(ticks) = ticks_of_children()
     {
         let path = file(name, "time");
