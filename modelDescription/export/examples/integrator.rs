@@ -1,27 +1,28 @@
 //! The smallest model: y = ∫ u dt, with u held over each step. `lag.rs` shows every type of variable.
 
-use declaration::{Declare, Description, Experiment, Stepping, Variability::*, real, unit};
+use declaration::{Declare, Description, Experiment, Rows, Start, Stepping};
 use export::{Log, Model, Refusal, Step};
 use serde::{Deserialize, Serialize};
 
-/// Its variables, at their start values by default.
-#[derive(Clone, Default, Serialize, Deserialize)]
+/// Its variables, one row each.
+#[derive(Clone, Serialize, Deserialize, Rows, Start)]
 pub struct Integrator {
+    /// speed
+    #[input(0, unit = METRE_PER_SECOND)]
     u: f64,
+    /// distance, 0 at the start
+    #[output(1, unit = METRE)]
     y: f64,
 }
 
-#[rustfmt::skip] // a table
+#[rustfmt::skip]
 impl Declare for Integrator {
     const DESCRIPTION: Description<Self> = Description {
         name: "integrator",
         about: "Integrator dy/dt = u",
         stepping: Stepping::Exact,
         experiment: Experiment { start: 0.0, stop: 1.0, tolerance: 1e-6, step: 0.01 },
-        variables: &[
-            real!(u, unit::METRE_PER_SECOND).input(Continuous).about("speed"),
-            real!(y, unit::METRE).output(Continuous).about("distance, 0 at the start"),
-        ],
+        variables: Self::ROWS,
     };
 }
 
