@@ -6,7 +6,7 @@ use crate::instance::{Instance, refused};
 use crate::legality::Phase;
 use crate::model::{Model, Refusal};
 use crate::provenance::text;
-use declaration::{Access, Causality, Of, Place, Provenance, Variable};
+use declaration::{Access, Causality, Of, Place, Provenance, Range, Variable};
 
 /// A type of the interface: its name, and what a row demands of a value.
 pub trait Value: declaration::Value {
@@ -32,20 +32,25 @@ impl Value for f64 {
         Self::of(access)
     }
 
+    #[inline]
     fn objection<M>(&self, row: &Variable<M>) -> Option<String> {
         let Access::Real { unit, range, .. } = &row.access else {
             return None;
         };
         if range.contains(*self) || (row.may_be_nan && !self.is_finite()) {
-            None
-        } else if self.is_finite() {
-            Some(format!(
-                "= {self} {}, expected a value from {} to {}",
-                unit.name, range.low, range.high
-            ))
-        } else {
-            Some(format!("= {self} {}, expected a finite value", unit.name))
+            return None;
         }
+        Some(out_of_range(*self, unit.name, range))
+    }
+}
+
+#[cold]
+fn out_of_range(value: f64, unit: &str, range: &Range) -> String {
+    let Range { low, high, .. } = range;
+    if value.is_finite() {
+        format!("= {value} {unit}, expected a value from {low} to {high}")
+    } else {
+        format!("= {value} {unit}, expected a finite value")
     }
 }
 
@@ -139,28 +144,6 @@ pub fn check_parameters<M: Model>(model: &M) -> Result<(), Refusal> {
 /// Why what the model computes is refused.
 const COMPUTED: &str = "is computed by the model: it cannot be set";
 
-/// Where one scalar of type `V` lives.
-struct Scalar<M: 'static, V: 'static> {
-    variable: &'static Variable<M>,
-    element: usize,
-    at: &'static Place<M, V>,
-}
-
-#[inline]
-fn scalar<M: Model, V: Value>(reference: ValueReference) -> Result<Scalar<M, V>, Failure> {
-    let Some((variable, element)) = M::DESCRIPTION.find(reference) else {
-        return unknown::<_, M>(reference);
-    };
-    match V::at(&variable.access) {
-        Some(at) => Ok(Scalar {
-            variable,
-            element,
-            at,
-        }),
-        None => another_type::<_, V>(&variable.element_name(element), reference),
-    }
-}
-
 /// The text of a variable that says what the library was built from; an error where `reference` is none of them.
 #[cold]
 fn constant<M: Model, V: Value>(reference: ValueReference) -> Result<V, Failure> {
@@ -211,10 +194,12 @@ impl<M: Model> Instance<M> {
         if self.now.phase == Phase::InitializationMode {
             // All are looked up before anything is computed: a refused Get changes nothing.
             for &reference in references {
-                if M::DESCRIPTION.find(reference).is_some() {
-                    scalar::<M, V>(reference)?;
-                } else {
-                    constant::<M, V>(reference)?;
+                match M::DESCRIPTION.find(reference) {
+                    Some((row, element)) if V::at(&row.access).is_none() => {
+                        return another_type::<_, V>(&row.element_name(element), reference);
+                    }
+                    Some(_) => {}
+                    None => drop(constant::<M, V>(reference)?),
                 }
             }
             // What cannot be initialized yet still shows its values; fmi2ExitInitializationMode says what is wrong.
@@ -244,14 +229,15 @@ impl<M: Model> Instance<M> {
         let phase = self.now.phase;
         let mut tuned = false;
         for (i, &reference) in references.iter().enumerate() {
-            if M::DESCRIPTION.find(reference).is_none() {
-                if let Some(of) = Provenance::find(reference) {
-                    return refused(format!("{} {COMPUTED}", of.name()));
-                }
+            let Some((variable, element)) = M::DESCRIPTION.find(reference) else {
+                return match Provenance::find(reference) {
+                    Some(of) => refused(format!("{} {COMPUTED}", of.name())),
+                    None => unknown::<_, M>(reference),
+                };
+            };
+            if V::at(&variable.access).is_none() {
+                return another_type::<_, V>(&variable.element_name(element), reference);
             }
-            let Scalar {
-                variable, element, ..
-            } = scalar::<M, V>(reference)?;
             let objection = match (not_settable(variable, phase), value(i)) {
                 (Some(reason), _) => Some(reason.to_owned()),
                 (None, Err(reason)) => Some(reason.to_owned()),
@@ -265,8 +251,9 @@ impl<M: Model> Instance<M> {
         let tuned_in_run = tuned && phase == Phase::StepComplete;
         let before = tuned_in_run.then(|| self.now.model.clone());
         for (i, &reference) in references.iter().enumerate() {
-            if let (Scalar { element, at, .. }, Ok(value)) = (scalar::<M, V>(reference)?, value(i))
-            {
+            let place = M::DESCRIPTION.find(reference);
+            let place = place.and_then(|(row, element)| Some((V::at(&row.access)?, element)));
+            if let (Some((at, element)), Ok(value)) = (place, value(i)) {
                 at.set(&mut self.now.model, element, value);
             }
         }
