@@ -10,10 +10,6 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[allow(
     clippy::large_enum_variant,
-    reason = "a tick must not need the heap on which the largest one could lie"
-)]
-#[allow(
-    clippy::large_enum_variant,
     reason = "one of them, once: a box would cost more than it saves"
 )]
 pub enum Controller {

@@ -53,9 +53,9 @@ impl Block {
                 let (references, values) = &mut $block;
                 if !references.is_empty() {
                     let (n, values) = (references.len(), values.as_mut_ptr());
+                    let (call, names) = (library.$function, references.as_ptr());
                     // SAFETY: arrays of the length that is passed; the component is live.
-                    let status =
-                        unsafe { (library.$function)(component, references.as_ptr(), n, values) };
+                    let status = unsafe { call(component, names, n, values) };
                     assert_eq!(status, Status::OK, "{:?}", instance.messages());
                 }
             };
@@ -72,9 +72,9 @@ impl Block {
                 let (references, values) = &$block;
                 if !references.is_empty() {
                     let (n, values) = (references.len(), values.as_ptr());
+                    let (call, names) = (library.$function, references.as_ptr());
                     // SAFETY: arrays of the length that is passed; the component is live.
-                    let status =
-                        unsafe { (library.$function)(component, references.as_ptr(), n, values) };
+                    let status = unsafe { call(component, names, n, values) };
                     assert_eq!(status, Status::OK, "{:?}", instance.messages());
                 }
             };
