@@ -1,8 +1,10 @@
 //! What is linked into a library besides the model itself: name, version, licence, where it comes from, and the licence
 //! texts that its authors want to go with it. The archive's licences and its bill of materials are written from it.
 
+use serde::{Deserialize, Serialize};
+
 /// One linked component.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Component {
     /// Name in its registry, or in this project.
     pub name: String,

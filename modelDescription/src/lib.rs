@@ -45,7 +45,7 @@
 //! | [`mod@header`] | value references for C programs | `documentation/<name>.h` | |
 //! | [`archive`] | the archive, the same bytes every time | `<name>.fmu` | 2.3 |
 //!
-//! No model is known here. The table of this project's FMUs is in `xtask`.
+//! No model is known here. The list of this project's FMUs is the package `fmus`.
 
 pub mod archive;
 pub mod component;

@@ -16,7 +16,9 @@ from exo.experiment import Experiment
 from exo.fmu import Archive, find_fmu_dir
 from exo.recording import Recording
 
-NAMES = ("TestbedController", "Testbed", "ArmController", "ExoskeletonArm", "ExoskeletonArms", "HumanOperator")
+from foreign.matrix import names
+
+NAMES = names()
 
 
 #: The scenario that ran last. Its tests stand next to each other, so that it runs once; all together would be some GB.

@@ -2,36 +2,50 @@
 //! differ from the same source built elsewhere.
 
 use crate::process::{Failure, Outcome, answer, at, cargo, program, root, run};
+use std::collections::BTreeMap;
 use std::ffi::OsString;
 use std::path::PathBuf;
 
-/// Builds the example target `name` of `package` in release mode; returns the library.
-pub fn library(package: &str, name: &str) -> Outcome<Vec<u8>> {
+/// The model that the C interface is tested with, `modelDescription/export/examples/lag.rs`: it panics when told to.
+pub const LAG: &str = "lag";
+
+/// The smallest model, `modelDescription/export/examples/integrator.rs`.
+pub const SMALLEST: &str = "integrator";
+
+/// Builds the libraries of all FMUs and of the two examples in release mode; returns where they lie, by name.
+pub fn libraries() -> Outcome<BTreeMap<&'static str, PathBuf>> {
     let target = root().join("target/fmu-build");
-    let mut build = cargo([
-        "build",
-        "--locked",
-        "--release",
-        "--package",
-        package,
-        "--example",
-        name,
-        "--target-dir",
-    ]);
+    // One call: it compiles once what they share, and links side by side.
+    let mut build = cargo(["build", "--locked", "--release", "--target-dir"]);
+    build.arg(&target);
+    let mut names: Vec<&'static str> = Vec::new();
+    for fmu in fmus::ALL {
+        build.args(["--package", &fmu.package(), "--example", fmu.name]);
+        names.push(fmu.name);
+    }
+    build.args(["--package", "export"]);
+    for example in [SMALLEST, LAG] {
+        build.args(["--example", example]);
+        names.push(example);
+    }
     // The encoded form takes precedence over RUSTFLAGS and over cargo's configuration, and takes spaces in paths.
     run(build
-        .arg(&target)
         .env("EXO_GIT_HASH", git_hash())
         .env("CARGO_ENCODED_RUSTFLAGS", remapping(&[])?))?;
-    let file = format!(
-        "{}{name}{}",
-        std::env::consts::DLL_PREFIX,
-        std::env::consts::DLL_SUFFIX
-    );
-    let path = target.join("release/examples").join(file);
-    let bytes = std::fs::read(&path).map_err(at(&path))?;
-    forbid_private_paths(&path.to_string_lossy(), &bytes)?;
-    Ok(bytes)
+    let mut libraries = BTreeMap::new();
+    for name in names {
+        let path = target.join("release/examples").join(library_name(name));
+        let bytes = std::fs::read(&path).map_err(at(&path))?;
+        forbid_private_paths(&path.to_string_lossy(), &bytes)?;
+        libraries.insert(name, path);
+    }
+    Ok(libraries)
+}
+
+/// File name of a library of this machine.
+pub fn library_name(name: &str) -> String {
+    let (prefix, suffix) = (std::env::consts::DLL_PREFIX, std::env::consts::DLL_SUFFIX);
+    format!("{prefix}{name}{suffix}")
 }
 
 /// Refuses bytes that tell of this machine.
@@ -96,7 +110,7 @@ pub fn remapping(others: &[(PathBuf, String)]) -> Outcome<OsString> {
 }
 
 /// Paths that must not be in a library or an archive.
-fn private_paths() -> Vec<OsString> {
+pub fn private_paths() -> Vec<OsString> {
     let home = std::env::var_os("HOME").map(PathBuf::from);
     let paths = [Some(root()), Some(cargo_home()), sysroot(), home];
     // A home of `/` is in every path.

@@ -1,84 +1,40 @@
 //! Archives from libraries.
 
-use crate::build::{forbid_private_paths, library};
-use crate::catalogue::{FMUS, Fmu};
+use crate::build::{LAG, SMALLEST, libraries, library_name};
+use crate::catalogue::{Request, descriptions, pack};
+use crate::linked;
 use crate::process::{Failure, Outcome, at, root};
-use crate::{linked, wiring};
-use model_description::archive::{self, Binary, Contents};
-use model_description::{Component, Guide, Interface};
 use std::path::Path;
 
 /// Builds `target/fmu/<Name>.fmu` of every FMU, and `target/fmu/test/` for the tests of the C interface.
 pub fn build_all(bless: bool) -> Outcome {
     let platform = platform()?;
-    let folder = root().join("target/fmu");
     // Before anything is built: a diff can be read while the libraries are made.
-    for fmu in FMUS {
-        let interface = fmu.interface()?;
-        if bless {
-            fmu.bless(&interface)?;
-        } else if !fmu.is_committed(&interface) {
-            println!(
-                "note: modelDescription/{}.xml is out of date: `cargo xtask fmu --bless`, then read the diff",
-                fmu.name
-            );
-        }
+    descriptions(bless)?;
+    let built = libraries()?;
+    let folder = root().join("target/fmu");
+    let request = |name, package: &str, folder: &Path| -> Outcome<Request> {
+        let mut request = Request::new(name, folder, linked::components(package)?);
+        request.add(platform, std::env::consts::DLL_SUFFIX, &built[name]);
+        Ok(request)
+    };
+    let mut requests = Vec::new();
+    for fmu in fmus::ALL {
+        requests.push(request(fmu.name, &fmu.package(), &folder)?);
     }
-    for fmu in FMUS {
-        let interface = fmu.interface()?;
-        let bytes = library(fmu.package, fmu.name)?;
-        let binary = Binary {
-            platform,
-            extension: std::env::consts::DLL_SUFFIX,
-            bytes: &bytes,
-        };
-        let archive = archive(
-            &fmu,
-            &interface,
-            &[binary],
-            &linked::components(fmu.package)?,
-        )?;
-        let path = folder.join(fmu.name).with_extension("fmu");
-        replace(&path, &archive)?;
+    requests.push(request(SMALLEST, "export", &folder.join("test"))?);
+    pack(&requests)?;
+    for fmu in fmus::ALL {
+        let size = |path: &Path| std::fs::metadata(path).map_or(0, |file| file.len()) / 1000;
         println!(
             "target/fmu/{}.fmu  {} kB, library {} kB, {platform}",
             fmu.name,
-            archive.len() / 1000,
-            bytes.len() / 1000
+            size(&folder.join(fmu.name).with_extension("fmu")),
+            size(&built[fmu.name])
         );
     }
-    let name = format!(
-        "{}lag{}",
-        std::env::consts::DLL_PREFIX,
-        std::env::consts::DLL_SUFFIX
-    );
-    replace(&folder.join("test").join(name), &library("export", "lag")?)
-}
-
-/// The archive of one FMU, with libraries for some platforms and what is linked into them.
-///
-/// # Errors
-/// When a path of this machine stands in one of its files.
-pub fn archive(
-    fmu: &Fmu,
-    interface: &Interface,
-    binaries: &[Binary<'_>],
-    linked: &[Component],
-) -> Outcome<Vec<u8>> {
-    let contents = Contents {
-        interface,
-        binaries,
-        linked,
-        guide: Guide {
-            picture: fmu.picture,
-            wiring: &wiring::of(fmu.name),
-        },
-        icon: fmu.icon,
-    };
-    for (path, bytes) in archive::files(&contents) {
-        forbid_private_paths(&format!("{}.fmu: {path}", fmu.name), &bytes)?;
-    }
-    archive::write(&contents).map_err(|cause| Failure::Found(cause.to_string()))
+    let lag = std::fs::read(&built[LAG]).map_err(at(&built[LAG]))?;
+    replace(&folder.join("test").join(library_name(LAG)), &lag)
 }
 
 /// Folder of this machine's libraries in an archive.

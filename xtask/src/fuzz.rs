@@ -1,8 +1,7 @@
 //! Random call sequences on the built FMUs (`tests/abi`, `call_sequences`): as a command, and under valgrind's memcheck.
 
-use crate::catalogue::FMUS;
-use crate::process::{Failure, Outcome, answer, cargo, program, root, run};
-use std::path::{Path, PathBuf};
+use crate::process::{Failure, Outcome, answer, built, program, run};
+use std::path::Path;
 use std::process::Command;
 
 /// Calls on each FMU under memcheck in `cargo xtask test`.
@@ -28,7 +27,7 @@ pub struct Request {
 /// The FMUs by name, and the test model.
 fn names() -> Vec<&'static str> {
     let mut names = vec!["Lag"];
-    names.extend(FMUS.map(|fmu| fmu.name));
+    names.extend(fmus::NAMES);
     names
 }
 
@@ -50,7 +49,7 @@ pub fn fuzz(request: &Request) -> Outcome {
     if request.memcheck && valgrind().is_none() {
         return Err(Failure::Missing(VALGRIND));
     }
-    let player = player()?;
+    let player = built("call_sequences")?;
     if request.replay.is_none() {
         println!("seed {seed}");
     }
@@ -77,18 +76,18 @@ pub fn memcheck() -> Outcome {
             "NOT RUN: memcheck, {VALGRIND}; the same {CALLS} calls on each FMU without it, seed {SEED}"
         ),
     }
-    let player = player()?;
-    two_at_a_time(&FMUS.map(|fmu| fmu.name), |name| {
+    let player = built("call_sequences")?;
+    two_at_a_time(fmus::NAMES, |name| {
         played(&player, name, CALLS, SEED, valgrind.is_some())
     })
 }
 
 /// What to say when it is missing.
-const VALGRIND: &str =
+pub const VALGRIND: &str =
     "valgrind is not on PATH; install it (Debian, Ubuntu: apt-get install valgrind)";
 
 /// Its version, if it is there.
-fn valgrind() -> Option<String> {
+pub fn valgrind() -> Option<String> {
     answer(&mut program("valgrind", ["--version"]))
 }
 
@@ -142,14 +141,4 @@ fn memchecked(player: &Path) -> Command {
     );
     command.arg(player);
     command
-}
-
-/// Builds the program that plays.
-fn player() -> Outcome<PathBuf> {
-    let package = ["--locked", "--package", "abi", "--bin", "call_sequences"];
-    run(cargo(["build", "--quiet"]).args(package))?;
-    let target =
-        std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| "target".into(), PathBuf::from);
-    let name = format!("call_sequences{}", std::env::consts::EXE_SUFFIX);
-    Ok(root().join(target).join("debug").join(name))
 }

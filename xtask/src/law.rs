@@ -2,7 +2,8 @@
 //! compiles it for a microcontroller, too.
 
 use crate::build::remapping;
-use crate::process::{Failure, Outcome, at, cargo, program, root, run};
+use crate::catalogue::law_header;
+use crate::process::{Outcome, at, cargo, program, root, run};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -43,29 +44,9 @@ fn committed() -> PathBuf {
     source().join("include/exo_law.h")
 }
 
-/// The header that the source gives.
-///
-/// # Errors
-/// When cbindgen cannot read the source.
-pub fn header() -> Outcome<String> {
-    let found = |error: &dyn std::fmt::Display| Failure::Found(format!("cbindgen: {error}"));
-    let config = cbindgen::Config::from_file(source().join("cbindgen.toml"))
-        .map_err(|error| found(&error))?;
-    let bindings = cbindgen::Builder::new()
-        .with_config(config)
-        .with_src(root().join("fmu/admittance/src/lib.rs"))
-        .with_src(root().join("fmu/arm-law/src/lib.rs"))
-        .with_src(source().join("src/lib.rs"))
-        .generate()
-        .map_err(|error| found(&error))?;
-    let mut text = Vec::new();
-    bindings.write(&mut text);
-    String::from_utf8(text).map_err(|error| found(&error))
-}
-
 /// Builds `target/law/{f64,f32}`: library, header, and the example, which replays recorded vectors.
 pub fn build_all(bless: bool) -> Outcome {
-    let text = header()?;
+    let text = law_header()?;
     if bless {
         std::fs::write(committed(), &text).map_err(at(&committed()))?;
     } else if !is_committed(&text) {
@@ -137,18 +118,4 @@ fn example(precision: &Precision, folder: &Path) -> Outcome {
         .args(["-lm", "-o"])
         .arg(folder.join("replay"));
     run(&mut cc)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_committed_header_is_what_the_source_gives() {
-        let text = header().unwrap_or_else(|failure| panic!("{failure}"));
-        assert!(
-            is_committed(&text),
-            "run `cargo xtask law --bless` and read the diff"
-        );
-    }
 }

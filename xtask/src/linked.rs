@@ -3,9 +3,10 @@
 //! Macros and build scripts run on the building machine and are not linked; dependencies of other platforms are taken
 //! in, so that the archive says the same wherever it is built.
 
+use crate::component::Component;
 use crate::licence;
 use crate::process::{Failure, Outcome, answer, at, cargo, program, root};
-use model_description::Component;
+
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -232,13 +233,12 @@ fn unknown(what: String) -> Failure {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::catalogue::FMUS;
 
     #[test]
     fn each_fmu_lists_what_it_links_with_texts_sums_and_allowed_licences() {
-        for fmu in FMUS {
-            let components =
-                components(fmu.package).unwrap_or_else(|failure| panic!("{}: {failure}", fmu.name));
+        for fmu in fmus::ALL {
+            let components = components(&fmu.package())
+                .unwrap_or_else(|failure| panic!("{}: {failure}", fmu.name));
             let find = |name: &str| components.iter().find(|component| component.name == name);
             for name in ["rust-std", "serde", "postcard", "libm", "uuid"] {
                 let component = find(name).unwrap_or_else(|| panic!("{} links {name}", fmu.name));
@@ -257,7 +257,7 @@ mod tests {
             assert!(export.texts.is_empty() && export.purl.is_none(), "our own");
             assert!(export.uses.iter().any(|id| id.starts_with("postcard-")));
             assert!(
-                find(fmu.package).is_none(),
+                find(&fmu.package()).is_none(),
                 "the FMU itself is no part of it"
             );
         }

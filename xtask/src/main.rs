@@ -6,6 +6,8 @@
 //! | `cargo xtask ssp` | the coupled systems for other tools | `target/ssp/*.ssp`, `*.fmu` |
 //! | `cargo xtask dist` | the archives with the libraries of every platform | `target/dist/*.fmu` |
 //! | `cargo xtask test` | everything that is checked | |
+//! | `cargo xtask ci` | the same, and `dist --check` beside it | |
+//! | `cargo xtask stage NAME` | one stage of it, after those that it waits for | |
 //! | `cargo xtask reproduce` | the paper's experiments | `results/report.html` |
 //! | `cargo xtask adversary --minutes N` | attacks on the energy tank | what breaks it, in `tests/adversary/regressions.txt` |
 //! | `cargo xtask fuzz [--calls N] [--seed S] [--fmu NAME]` | random calls on the built FMUs | a failing sequence, printed |
@@ -15,33 +17,37 @@
 //!
 //! | module | what |
 //! |---|---|
-//! | [`catalogue`] | the table of the FMUs, and their committed descriptions |
+//! | [`catalogue`] | what the program `catalogue`, which knows the models, is asked for |
 //! | [`build`] | libraries without a trace of this machine |
 //! | [`fmu`] | archives from libraries |
 //! | [`fuzz`] | random calls on the FMUs, under memcheck |
-//! | [`linked`] | what is linked into a library, with its licence texts |
+//! | [`instructions`] | instructions per call, counted by callgrind |
+//! | [`linked`], [`component`] | what is linked into a library, with its licence texts |
 //! | [`licence`] | which licences may be |
-//! | [`wiring`] | which output belongs to which input |
 //! | [`law`] | the C library: header, static libraries, example |
 //! | [`dist`] | archives for many platforms |
 //! | [`venv`] | the Python environment |
-//! | [`stages`] | commands made of stages, each with its time |
+//! | [`checks`], [`schedule`] | the stages of `test` and `ci`, and how they run side by side |
+//! | [`stages`] | other commands made of stages, each with its time |
 //! | [`process`] | other programs, and what went wrong with them |
 
 mod build;
 mod catalogue;
+mod checks;
+/// The source that the package `model-description` compiles, too: this one need not depend on it.
+#[path = "../../modelDescription/src/component.rs"]
+mod component;
 mod dist;
 mod fmu;
 mod fuzz;
+mod instructions;
 mod law;
 mod licence;
 mod linked;
-#[cfg(test)]
-mod pictures;
 mod process;
+mod schedule;
 mod stages;
 mod venv;
-mod wiring;
 
 use clap::{Parser, Subcommand};
 use std::process::ExitCode;
@@ -75,6 +81,17 @@ enum Command {
         /// Run the remaining stages after one has failed
         #[arg(long)]
         keep_going: bool,
+    },
+    /// What `test` and `dist --check` do, side by side
+    Ci {
+        /// Run the remaining stages after one has failed
+        #[arg(long)]
+        keep_going: bool,
+    },
+    /// Run one stage of `ci`
+    Stage {
+        /// Its name, as the table of stages shows it
+        name: String,
     },
     /// Build the C library into target/law: f64 and f32
     Law {
@@ -111,8 +128,18 @@ enum Command {
         #[arg(long)]
         memcheck: bool,
     },
-    /// Measure: FMU calls (cargo bench), harness loop
-    Bench,
+    /// Measure: instructions per call (callgrind), FMU calls (cargo bench), harness loop
+    Bench {
+        /// Count instructions only
+        #[arg(long)]
+        instructions: bool,
+        /// Count instructions, and rewrite the committed counts
+        #[arg(long)]
+        bless: bool,
+        /// Count instructions of the archives in this folder; without it they are built
+        #[arg(long)]
+        fmu_dir: Option<std::path::PathBuf>,
+    },
     /// Create the Python environment .venv from harness/requirements.lock
     Venv,
 }
@@ -122,7 +149,9 @@ fn main() -> ExitCode {
         Command::Fmu { bless } => stages::fmu(bless),
         Command::Ssp => stages::ssp(),
         Command::Dist { check } => dist::dist(check),
-        Command::Test { keep_going } => stages::test(keep_going),
+        Command::Test { keep_going } => checks::test(keep_going),
+        Command::Ci { keep_going } => checks::ci(keep_going),
+        Command::Stage { name } => checks::one(&name),
         Command::Law { bless } => law::build_all(bless),
         Command::Reproduce => stages::reproduce(),
         Command::Adversary { minutes, seed } => stages::adversary(minutes, seed),
@@ -139,7 +168,14 @@ fn main() -> ExitCode {
             replay,
             memcheck,
         }),
-        Command::Bench => stages::bench(),
+        Command::Bench {
+            instructions,
+            bless,
+            fmu_dir,
+        } => match fmu_dir {
+            None if !instructions && !bless => stages::bench(),
+            folder => stages::instructions(folder, bless),
+        },
         Command::Venv => stages::venv(),
     };
     match outcome {

@@ -1,5 +1,6 @@
 //! Other programs, and what went wrong with them.
 
+use crate::schedule::BUILT;
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitStatus, Stdio};
@@ -31,13 +32,6 @@ pub enum Failure {
         /// Cause.
         cause: io::Error,
     },
-    /// A declaration breaks a rule.
-    Declaration {
-        /// FMU.
-        fmu: &'static str,
-        /// Rule.
-        cause: model_description::Error,
-    },
     /// Found wrong by ourselves.
     Found(String),
     /// Stages failed.
@@ -54,7 +48,6 @@ impl fmt::Display for Failure {
             Self::Start { command, cause } => write!(f, "cannot start `{command}`: {cause}"),
             Self::Exit { command, status } => write!(f, "`{command}` failed ({status})"),
             Self::File { path, cause } => write!(f, "{}: {cause}", path.display()),
-            Self::Declaration { fmu, cause } => write!(f, "declaration of {fmu}: {cause}"),
             Self::Found(what) => f.write_str(what),
             Self::Stages(names) => write!(f, "failed: {}", names.join(", ")),
         }
@@ -109,6 +102,24 @@ pub fn run(command: &mut Command) -> Outcome {
     }
 }
 
+/// Runs it for what it prints; its errors are shown.
+pub fn output(command: &mut Command) -> Outcome<String> {
+    let outcome = command.stderr(Stdio::inherit()).output();
+    let output = outcome.map_err(|cause| Failure::Start {
+        command: line(command),
+        cause,
+    })?;
+    let text = String::from_utf8_lossy(&output.stdout).into_owned();
+    if output.status.success() {
+        return Ok(text);
+    }
+    print!("{text}");
+    Err(Failure::Exit {
+        command: line(command),
+        status: output.status,
+    })
+}
+
 /// Runs it for its first line of output; `None` when it cannot be started or fails.
 pub fn answer(command: &mut Command) -> Option<String> {
     let output = command
@@ -119,6 +130,32 @@ pub fn answer(command: &mut Command) -> Option<String> {
     String::from_utf8(output.stdout)
         .ok()
         .map(|text| text.trim().to_owned())
+}
+
+/// Where a program of ours lies; builds it, unless this is a stage that finds it built.
+///
+/// # Errors
+/// When cargo fails.
+pub fn built(name: &str) -> Outcome<PathBuf> {
+    if std::env::var_os(BUILT).is_none() {
+        build(name)?;
+    }
+    let target =
+        std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| "target".into(), PathBuf::from);
+    let file = format!("{name}{}", std::env::consts::EXE_SUFFIX);
+    Ok(root().join(target).join("debug").join(file))
+}
+
+/// Builds a program of ours. It is built as part of the workspace, so that what it has in common with the tests is compiled
+/// once; and without the importers, whose features would bring another compressor, so that the archives had other bytes.
+///
+/// # Errors
+/// When cargo fails.
+pub fn build(name: &str) -> Outcome {
+    let packages = ["--locked", "--workspace", "--exclude", "importers"];
+    run(cargo(["build", "--quiet"])
+        .args(packages)
+        .args(["--bin", name]))
 }
 
 /// A failure to read or write `path`.

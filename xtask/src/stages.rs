@@ -1,10 +1,9 @@
-//! Commands made of stages. Each stage prints its name and its time; the first failure ends the command, unless it was
+//! Commands made of stages one after the other; `cargo xtask test` and `ci` are in [`checks`](crate::checks). Each stage prints its name and its time; the first failure ends the command, unless it was
 //! told to keep going.
 
-use crate::catalogue::FMUS;
-use crate::process::{Failure, Outcome, answer, cargo, program, root, run};
+use crate::process::{Failure, Outcome, cargo, root, run};
 use crate::venv::{Venv, check_machine};
-use std::process::Command;
+use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
 /// Stages that ran, with their time and result.
@@ -92,81 +91,6 @@ pub fn venv() -> Outcome {
     Venv::ready().map(|_| ())
 }
 
-/// `cargo xtask test`
-pub fn test(keep_going: bool) -> Outcome {
-    check_machine()?;
-    let mut stages = Stages::new(keep_going);
-    stages.stage("fmt", || run(&mut cargo(["fmt", "--all", "--check"])));
-    let venv = stages.stage("venv", Venv::ready);
-    // The same environment for all of cargo's stages, so that none builds again what another has built.
-    let with_libclang = |venv: &Venv, mut command: Command| -> Outcome {
-        let headers = answer(&mut program("cc", ["-print-file-name=include"])).unwrap_or_default();
-        run(command
-            .env("LIBCLANG_PATH", venv.libclang()?)
-            .env("BINDGEN_EXTRA_CLANG_ARGS", format!("-I{headers}")))
-    };
-    if let Some(venv) = &venv {
-        stages.stage("clippy", || {
-            with_libclang(
-                venv,
-                cargo([
-                    "clippy",
-                    "--locked",
-                    "--workspace",
-                    "--all-targets",
-                    "--",
-                    "-D",
-                    "warnings",
-                ]),
-            )
-        });
-        stages.stage("rustdoc", || {
-            let mut doc = cargo(["doc", "--locked", "--workspace", "--no-deps"]);
-            doc.env("RUSTDOCFLAGS", "-D warnings");
-            with_libclang(venv, doc)
-        });
-    }
-    stages.stage("fmu", || crate::fmu::build_all(false));
-    stages.stage("law", || crate::law::build_all(false));
-    if let Some(venv) = &venv {
-        stages.stage("cargo test", || {
-            with_libclang(
-                venv,
-                cargo(["test", "--locked", "--workspace", "--exclude", "importers"]),
-            )
-        });
-        stages.stage("memcheck", crate::fuzz::memcheck);
-        stages.stage("importers", || {
-            with_libclang(venv, cargo(["test", "--locked", "--package", "importers"]))
-        });
-        stages.stage("ruff", || {
-            run(&mut venv.command(["-m", "ruff", "check", "harness", "tests/system"]))?;
-            run(&mut venv.command(["-m", "ruff", "format", "--check", "harness", "tests/system"]))
-        });
-        stages.stage("mypy", || {
-            run(in_harness(&mut venv.command(["-m", "mypy"])))
-        });
-        stages.stage("exo validate", || {
-            run(venv
-                .exo(["validate", "--strict"])
-                .args(FMUS.map(|fmu| format!("target/fmu/{}.fmu", fmu.name))))
-        });
-        stages.stage("pytest", || {
-            // The same loop in native Rust, for the comparison with fmpy.
-            run(&mut cargo([
-                "build",
-                "--locked",
-                "--package",
-                "abi",
-                "--bin",
-                "native_loop",
-            ]))?;
-            run(&mut venv.command(["-m", "pytest", "tests/system"]))
-        });
-    }
-    stages.finish()
-}
-
 /// `cargo xtask reproduce`
 pub fn reproduce() -> Outcome {
     check_machine()?;
@@ -191,12 +115,33 @@ pub fn reproduce() -> Outcome {
     outcome
 }
 
+/// `cargo xtask bench --instructions`, `--bless`
+pub fn instructions(folder: Option<PathBuf>, bless: bool) -> Outcome {
+    let folder = match folder {
+        Some(folder) => folder,
+        None => {
+            crate::fmu::build_all(false)?;
+            fmus()
+        }
+    };
+    match bless {
+        true => crate::instructions::bless(&folder),
+        false => crate::instructions::check(&folder),
+    }
+}
+
+/// Where the built archives lie.
+fn fmus() -> PathBuf {
+    root().join("target/fmu")
+}
+
 /// `cargo xtask bench`
 pub fn bench() -> Outcome {
     check_machine()?;
     let mut stages = Stages::new(false);
     let venv = stages.stage("venv", Venv::ready);
     stages.stage("fmu", || crate::fmu::build_all(false));
+    stages.stage("instructions", || crate::instructions::check(&fmus()));
     stages.stage("cargo bench", || {
         run(&mut cargo(["bench", "--locked", "--package", "abi"]))
     });
@@ -224,11 +169,6 @@ pub fn adversary(minutes: f64, seed: u64) -> Outcome {
         &minutes,
         &seed,
     ]))
-}
-
-/// Where the configuration of the Python tools lies.
-fn in_harness(command: &mut Command) -> &mut Command {
-    command.current_dir(root().join("harness"))
 }
 
 #[cfg(test)]

@@ -1,18 +1,20 @@
 //! N axes, without a ledger: what several scalars do at one tick.
 
+use crate::axis::{self, Axis};
 use crate::bounds::Bounds;
-use crate::ledger::{Keep, Stored};
-use crate::{Axis, Gains, ParameterError, Real, Settings, axis, real};
+use crate::motion::Sampling;
+use crate::settling::{Keep, Stored};
+use crate::tick::{Coordinates, Tick};
+use crate::{Gains, ParameterError, Real, Settings, real};
 use nalgebra::SVector;
 
 /// N axes of the law between two ticks. They start out of the loop; the first tick engages them with q_n = q and v_n = 0.
-///
-/// A tick: [`sense`](Axes::sense) → the caller settles its ledger, perhaps [`reduced`](Stored::reduced) →
-/// [`propose`](Sensed::propose) → the caller's limits → [`commit`](Axes::commit).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Axes<const N: usize> {
     settings: Settings,
+    sampling: Sampling,
+    tuning_ticks: u32,
     axes: SVector<Axis, N>,
     engaged: bool,
 }
@@ -20,7 +22,7 @@ pub struct Axes<const N: usize> {
 /// What is asked of the law at a tick, beside its inputs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Request<const N: usize> {
-    /// Share of the force that the robot is to get, in [0, 1]: for fading in and out. A NaN counts as 0.
+    /// Part of the force that the robot is to get, in [0, 1]: for fading in and out. A NaN counts as 0.
     pub authority: Real,
     /// Whether the nominal stays where it is: the coupling then supports any load without drift.
     pub hold: bool,
@@ -44,42 +46,32 @@ impl<const N: usize> Default for Request<N> {
 
 impl<const N: usize> Request<N> {
     /// The authority within [0, 1].
-    pub fn share(&self) -> Real {
+    pub fn authority(&self) -> Real {
         if self.authority > 0.0 {
             real::min(self.authority, 1.0)
         } else {
             0.0
         }
     }
+
+    /// The part of it that is about axis `i`, from 0.
+    fn of(&self, i: usize) -> axis::Request {
+        axis::Request {
+            hold: self.hold,
+            damping: self.damping[i],
+            speed: self.speed[i],
+        }
+    }
 }
 
 /// The axes at a tick, once the position is known.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Sensed<const N: usize>(SVector<axis::Sensed, N>);
+pub struct Sensed<const N: usize>([axis::Sensed; N]);
 
 /// What the axes ask for at a tick. Nothing has happened until it is committed; it may be dropped.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[must_use]
-pub struct Proposal<const N: usize>(SVector<axis::Proposal, N>);
-
-/// What the axes did at a tick; every value is the one at t_k.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Committed<const N: usize> {
-    /// K y before any limit, N.
-    pub f_demand: SVector<Real, N>,
-    /// Nominal position q + e_nr, m.
-    pub q_n: SVector<Real, N>,
-    /// Nominal velocity, m/s.
-    pub dq_n: SVector<Real, N>,
-    /// q_n − q after the slip, m.
-    pub e_nr: SVector<Real, N>,
-    /// The robot's velocity as the law used it, m/s.
-    pub dq: SVector<Real, N>,
-    /// Whether one of the [`Bounds`], or hold, kept a nominal back.
-    pub held: bool,
-    /// Energy (K/alpha) f_h v_m T that the human's port brings in the sample that begins, J. Not finite for alpha = 0.
-    pub supplied: Real,
-}
+pub struct Proposal<const N: usize>([axis::Proposal; N]);
 
 impl<const N: usize> Axes<N> {
     /// Out of the loop, without bounds.
@@ -89,10 +81,11 @@ impl<const N: usize> Axes<N> {
     pub fn new(settings: Settings, gains: [Gains; N]) -> Result<Self, ParameterError> {
         settings.check()?;
         check(&gains)?;
-        let axes = SVector::from(gains).map(|gains| Axis::new(gains, Bounds::default(), 0.0));
         Ok(Self {
             settings,
-            axes,
+            sampling: Sampling::new(&settings),
+            tuning_ticks: settings.tuning_ticks(),
+            axes: SVector::from(gains).map(Axis::new),
             engaged: false,
         })
     }
@@ -105,9 +98,9 @@ impl<const N: usize> Axes<N> {
         for (axis, bounds) in (1..).zip(&bounds) {
             bounds.check(named::<N>(axis))?;
         }
-        self.axes.zip_apply(&SVector::from(bounds), |axis, bounds| {
-            *axis = axis.within(bounds);
-        });
+        for (axis, bounds) in self.axes.iter_mut().zip(bounds) {
+            axis.bound(bounds);
+        }
         Ok(())
     }
 
@@ -117,65 +110,101 @@ impl<const N: usize> Axes<N> {
     /// The first parameter out of its range; the gains stay as they were.
     pub fn tune(&mut self, gains: [Gains; N]) -> Result<(), ParameterError> {
         check(&gains)?;
-        let ticks = self.settings.tuning_ticks();
-        self.axes.zip_apply(&SVector::from(gains), |axis, gains| {
-            *axis = axis.tuned(gains, ticks);
-        });
+        for (axis, gains) in self.axes.iter_mut().zip(gains) {
+            axis.tune(gains, self.tuning_ticks);
+        }
         Ok(())
     }
+}
 
-    /// The axes at a tick with positions `q` (m).
-    #[must_use]
-    pub fn sense(&self, q: &SVector<Real, N>) -> Sensed<N> {
-        Sensed(self.axes.zip_map(q, |axis, q| {
-            let axis = if self.engaged {
-                axis
-            } else {
-                axis.engaged_at(q)
-            };
-            axis.sensed(q, &self.settings)
-        }))
+impl<const N: usize> Coordinates<N> for Axes<N> {
+    type Place = SVector<Real, N>;
+    type Request = Request<N>;
+    type Sensed = Sensed<N>;
+    type Proposal = Proposal<N>;
+    type Driven = [axis::Driven; N];
+
+    fn settings(&self) -> &Settings {
+        &self.settings
     }
 
-    /// The nominals move on, while the robot gets the forces `f` (N) along the axes: what the caller's limits left of
-    /// [`Proposal::f`].
-    ///
-    /// Under `passive_applied` and `passive_bounded` the nominal feels `f`, under `passive` the whole y, under `standard`
-    /// nothing.
-    pub fn commit(&mut self, proposal: Proposal<N>, f: &SVector<Real, N>) -> Committed<N> {
-        let Proposal(axes) = proposal;
-        let done = axes.zip_map(f, |axis, f| axis.commit(f, &self.settings));
-        self.axes = done.map(|axis| axis.axis);
-        self.engaged = true;
-        Committed {
-            f_demand: axes.map(|axis| axis.f_demand()),
-            q_n: axes.map(|axis| axis.q_n()),
-            dq_n: axes.map(|axis| axis.dq_n()),
-            e_nr: axes.map(|axis| axis.e_nr()),
-            dq: axes.map(|axis| axis.dq()),
-            held: done.iter().any(|axis| axis.held),
-            supplied: done.iter().map(|axis| axis.supplied).sum(),
-        }
-    }
-
-    /// Out of the loop at positions `q` (m): q_n = q, v_n = 0, nothing stored. The next tick engages anew.
-    pub fn rest(&mut self, q: &SVector<Real, N>) {
-        self.axes.zip_apply(q, |axis, q| *axis = axis.engaged_at(q));
-        self.engaged = false;
-    }
-
-    /// Whether the law is in the loop: since the last tick that was committed, unless it rests.
-    pub fn is_engaged(&self) -> bool {
+    fn is_engaged(&self) -> bool {
         self.engaged
     }
 
-    /// What all axes share.
-    pub fn settings(&self) -> &Settings {
-        &self.settings
+    #[inline]
+    fn sense(&self, q: &SVector<Real, N>) -> Sensed<N> {
+        Sensed(each(|i| {
+            self.axes[i].sense(q[i], &self.settings, &self.sampling)
+        }))
+    }
+
+    #[inline]
+    fn propose(
+        &self,
+        sensed: &Sensed<N>,
+        f_h: &SVector<Real, N>,
+        request: &Request<N>,
+    ) -> Proposal<N> {
+        Proposal(each(|i| {
+            self.axes[i].propose(&sensed.0[i], f_h[i], &request.of(i), &self.settings)
+        }))
+    }
+
+    #[inline]
+    fn f(&self, proposal: &Proposal<N>) -> SVector<Real, N> {
+        SVector::from_fn(|i, _| proposal.0[i].f())
+    }
+
+    #[inline]
+    fn driven(&self, proposal: &Proposal<N>, f: &SVector<Real, N>) -> [axis::Driven; N] {
+        each(|i| proposal.0[i].driven(f[i], &self.settings))
+    }
+
+    #[inline]
+    fn taken(&self, proposal: &Proposal<N>, f: &SVector<Real, N>) -> Real {
+        proposal
+            .0
+            .iter()
+            .zip(f)
+            .map(|(axis, f)| axis.taken(*f, &self.settings))
+            .sum()
+    }
+
+    #[inline]
+    fn supplied(&self, proposal: &Proposal<N>, driven: &[axis::Driven; N]) -> Real {
+        let axes = proposal.0.iter().zip(driven);
+        axes.map(|(axis, driven)| axis.supplied(*driven, &self.settings))
+            .sum()
+    }
+
+    #[inline]
+    fn show(&self, proposal: &Proposal<N>, driven: &[axis::Driven; N], tick: &mut Tick<N>) {
+        let axes = &proposal.0;
+        tick.f_demand = SVector::from_fn(|i, _| axes[i].f_demand());
+        tick.q_n = SVector::from_fn(|i, _| axes[i].q_n());
+        tick.dq_n = SVector::from_fn(|i, _| axes[i].dq_n());
+        tick.e_nr = SVector::from_fn(|i, _| axes[i].e_nr());
+        tick.dq = SVector::from_fn(|i, _| axes[i].dq());
+        tick.held = driven.iter().any(|axis| axis.held);
+    }
+
+    #[inline]
+    fn commit(&mut self, proposal: &Proposal<N>, driven: &[axis::Driven; N], f: &SVector<Real, N>) {
+        for (i, axis) in self.axes.iter_mut().enumerate() {
+            axis.commit(&proposal.0[i], driven[i], f[i], &self.settings);
+        }
+        self.engaged = true;
+    }
+
+    fn rest(&mut self) {
+        self.axes.iter_mut().for_each(Axis::rest);
+        self.engaged = false;
     }
 }
 
 impl<const N: usize> Stored for Sensed<N> {
+    #[inline]
     fn stored(&self, settings: &Settings) -> Real {
         self.0.iter().map(|axis| axis.stored(settings)).sum()
     }
@@ -188,47 +217,17 @@ impl<const N: usize> Stored for Sensed<N> {
         self.0.iter().map(|axis| axis.mass(settings)).sum()
     }
 
-    fn reduced(&self, keep: Keep) -> Self {
-        Self(self.0.map(|axis| axis.reduced(keep.e, keep.v_n)))
+    fn reduce(&mut self, keep: Keep) {
+        for axis in &mut self.0 {
+            axis.reduce(keep.e, keep.v_n);
+        }
     }
 }
 
-impl<const N: usize> Sensed<N> {
-    /// What the axes ask for with the human's forces `f_h` (N) along them.
-    pub fn propose(
-        &self,
-        f_h: &SVector<Real, N>,
-        request: &Request<N>,
-        settings: &Settings,
-    ) -> Proposal<N> {
-        let each = request
-            .damping
-            .zip_map(&request.speed, |damping, speed| axis::Request {
-                hold: request.hold,
-                damping,
-                speed,
-            });
-        Proposal(self.0.zip_zip_map(f_h, &each, |axis, f_h, request| {
-            axis.propose(f_h, &request, settings)
-        }))
-    }
-}
-
-impl<const N: usize> Proposal<N> {
-    /// The force that the axes ask for within ±f_max, N: what the caller maps to its actuators.
-    pub fn f(&self) -> SVector<Real, N> {
-        self.0.map(|axis| axis.f())
-    }
-
-    /// Energy (J) that the axes are sure to take in the sample that begins, if the robot gets the forces `f` (N):
-    /// [`axis::Proposal::taken`].
-    pub fn taken(&self, f: &SVector<Real, N>, settings: &Settings) -> Real {
-        self.0
-            .iter()
-            .zip(f)
-            .map(|(axis, f)| axis.taken(*f, settings))
-            .sum()
-    }
+/// One of something for each axis, from 0.
+#[inline]
+fn each<T, const N: usize>(of: impl FnMut(usize) -> T) -> [T; N] {
+    core::array::from_fn(of)
 }
 
 /// The axis as messages name it: not at all if there is one only.

@@ -3,8 +3,10 @@
 use crate::bounds::Interval;
 use crate::law::{Felt, Spring};
 use crate::midpoint::{self, Midpoint, Sample, slower};
+use crate::motion::Sampling;
 use crate::real::{floored, sat};
-use crate::{Bounds, Gains, Motion, Real, Settings, retune, storage};
+use crate::retune::{self, Tuning};
+use crate::{Bounds, Gains, Motion, Real, Settings, storage};
 
 /// One axis of the law between two ticks.
 ///
@@ -12,12 +14,11 @@ use crate::{Bounds, Gains, Motion, Real, Settings, retune, storage};
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Axis {
-    gains: Gains,
-    wanted: Gains,
-    /// ticks until the gains are those wanted
-    remaining: u32,
-    bounds: Bounds,
-    q_n: Real,
+    tuning: Tuning<Gains>,
+    /// none where nothing is bounded
+    bounds: Option<Bounds>,
+    /// the nominal's position, while the axis is in the loop
+    q_n: Option<Real>,
     v_n: Real,
     motion: Motion,
 }
@@ -25,9 +26,11 @@ pub struct Axis {
 /// One axis at a tick, once the position is known: what it stores, before it acts.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sensed {
-    axis: Axis,
+    gains: Gains,
+    motion: Motion,
     q: Real,
     e: Real,
+    v_n: Real,
 }
 
 /// What is asked of one axis at a tick, beside its inputs: its part of [`axes::Request`](crate::axes::Request).
@@ -44,154 +47,167 @@ pub struct Request {
 /// What one axis asks for at a tick. Nothing has happened until it is committed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Proposal {
-    axis: Axis,
-    /// the gains with the damping on top
-    damped: Gains,
+    gains: Gains,
+    motion: Motion,
     interval: Interval,
     q: Real,
     sample: Sample,
-    wish: Midpoint,
-    /// whether a limit changed the wish
-    held: bool,
+    wish: Driven,
+    /// K y before any limit, N
+    f_demand: Real,
 }
 
-/// What one axis did at a tick.
+/// How the nominal moves in the sample that begins.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Committed {
-    /// The axis until the next tick.
-    pub axis: Axis,
-    /// Energy (K/alpha) f_h v_m T that the human's port brings in the sample that begins, J. Not finite for alpha = 0.
-    pub supplied: Real,
-    /// Whether one of the [`Bounds`], or hold, kept the nominal back.
+pub struct Driven {
+    /// Its velocity at the middle of the sample, m/s.
+    pub v_m: Real,
+    /// Whether one of the [`Bounds`], or hold, keeps it back.
     pub held: bool,
 }
 
 impl Axis {
-    /// Engaged at the position `q` (m): q_n = q, v_n = 0, nothing known of the motion yet. The caller has checked gains and
-    /// bounds.
-    pub fn new(gains: Gains, bounds: Bounds, q: Real) -> Self {
+    /// Out of the loop. The caller has checked the gains.
+    pub fn new(gains: Gains) -> Self {
         Self {
-            gains,
-            wanted: gains,
-            remaining: 0,
-            bounds,
-            q_n: q,
+            tuning: Tuning::new(gains),
+            bounds: None,
+            q_n: None,
             v_n: 0.0,
             motion: Motion::default(),
         }
     }
 
-    /// Engaged anew at the position `q` (m), with the gains last wanted.
-    #[must_use]
-    pub fn engaged_at(self, q: Real) -> Self {
-        Self::new(self.wanted, self.bounds, q)
-    }
-
-    /// On its way to other gains, which it has after `ticks` ticks, or at the next one; wanting the same again, as an importer
-    /// does that sets all it has at every step, starts nothing anew. The caller has checked them.
-    #[must_use]
-    pub fn tuned(self, wanted: Gains, ticks: u32) -> Self {
-        if wanted == self.wanted {
-            return self;
-        }
-        Self {
-            wanted,
-            remaining: ticks.max(1),
-            ..self
+    /// On its way to other gains, which it has after `ticks` ticks; at once while it is out of the loop. The caller has
+    /// checked them.
+    pub fn tune(&mut self, wanted: Gains, ticks: u32) {
+        self.tuning.want(wanted, ticks);
+        if self.q_n.is_none() {
+            self.tuning.finish();
         }
     }
 
     /// Within other bounds from the next tick on. The caller has checked them.
-    #[must_use]
-    pub fn within(self, bounds: Bounds) -> Self {
-        Self { bounds, ..self }
+    pub fn bound(&mut self, bounds: Bounds) {
+        self.bounds = (bounds != Bounds::default()).then_some(bounds);
+    }
+
+    /// Out of the loop: nothing is stored, nothing known of the motion. The next tick engages with q_n = q, v_n = 0 and the
+    /// gains last wanted.
+    pub fn rest(&mut self) {
+        self.tuning.finish();
+        (self.q_n, self.v_n, self.motion) = (None, 0.0, Motion::default());
     }
 
     /// The axis at a tick with position `q` (m): gains on their way take over, the spring slips.
-    pub fn sensed(self, q: Real, settings: &Settings) -> Sensed {
-        let gains = self.gains.toward(&self.wanted, self.remaining);
-        let (e, v_n) =
-            retune::taken_over(settings.law, &self.gains, &gains, self.q_n - q, self.v_n);
+    #[inline]
+    pub fn sense(&self, q: Real, settings: &Settings, sampling: &Sampling) -> Sensed {
+        let (mut e, mut v_n) = (self.q_n.unwrap_or(q) - q, self.v_n);
+        let mut gains = *self.tuning.now();
+        if let Some(next) = self.tuning.next() {
+            (e, v_n) = retune::taken_over(settings.law, &gains, &next, e, v_n);
+            gains = next;
+        }
         Sensed {
-            axis: Self {
-                gains,
-                remaining: self.remaining.saturating_sub(1),
-                v_n,
-                motion: self.motion.sensed(q, settings),
-                ..self
-            },
+            motion: self.motion.sensed(q, sampling),
             q,
             e: storage::slipped(settings.law, &gains, e),
+            v_n,
+            gains,
         }
+    }
+
+    /// What the axis asks for with the human's force `f_h` (N): nominal and coupling are solved together, within the
+    /// `bounds` and the `request`.
+    #[inline]
+    pub fn propose(
+        &self,
+        sensed: &Sensed,
+        f_h: Real,
+        request: &Request,
+        settings: &Settings,
+    ) -> Proposal {
+        let Sensed {
+            gains,
+            motion,
+            q,
+            e,
+            v_n,
+        } = *sensed;
+        let T = settings.T;
+        let sample = Sample {
+            e,
+            v_n,
+            dq: motion.dq(),
+            f_h,
+            D_n: gains.D_n + request.damping,
+        };
+        let interval = Interval::within(self.bounds.as_ref(), q + e, T, request.hold)
+            .no_faster_than(request.speed);
+        let Midpoint { v_m: free, mut y } =
+            midpoint::coupled(&gains, settings.reaction(), T, &sample);
+        let v_m = interval.keep(free);
+        let held = v_m != free;
+        if held {
+            y = midpoint::coupling(&gains, T, &sample, v_m);
+        }
+        Proposal {
+            f_demand: gains.K * y,
+            gains,
+            motion,
+            interval,
+            q,
+            sample,
+            wish: Driven { v_m, held },
+        }
+    }
+
+    /// The nominal moves on as `driven`, while the robot gets the force `f` (N), which the caller's limits left of what the
+    /// axis proposed.
+    #[inline]
+    pub fn commit(&mut self, proposal: &Proposal, driven: Driven, f: Real, settings: &Settings) {
+        let Proposal { gains, sample, .. } = proposal;
+        let T = settings.T;
+        let Driven { v_m, held } = driven;
+        let mut v_n = midpoint::end(sample, v_m);
+        if held {
+            v_n = slower(v_n, v_m);
+        }
+        match settings.law.row().spring {
+            Spring::Slips if f != proposal.f_demand => {
+                v_n = slower(v_n, midpoint::at_the_bound(gains, T, sample, f / gains.K));
+            }
+            Spring::Slips | Spring::Limited | Spring::Free => {}
+        }
+        self.tuning.pass(gains);
+        self.q_n = Some(proposal.q_n() + T * v_m);
+        self.v_n = floored(v_n);
+        self.motion = proposal.motion;
     }
 }
 
 impl Sensed {
     /// Energy stored at this tick, J. Not finite for alpha = 0.
+    #[inline]
     pub fn stored(&self, settings: &Settings) -> Real {
-        let Self { axis, e, .. } = self;
-        storage::stored(settings.law, &axis.gains, settings.alpha, *e, axis.v_n)
+        let Self { gains, e, v_n, .. } = self;
+        storage::stored(settings.law, gains, settings.alpha, *e, *v_n)
     }
 
     /// The spring's part of it, J.
     pub fn spring(&self, settings: &Settings) -> Real {
-        storage::spring(settings.law, &self.axis.gains, self.e)
+        storage::spring(settings.law, &self.gains, self.e)
     }
 
     /// The nominal mass's part of it, J. Not finite for alpha = 0.
     pub fn mass(&self, settings: &Settings) -> Real {
-        storage::mass(&self.axis.gains, settings.alpha, self.axis.v_n)
+        storage::mass(&self.gains, settings.alpha, self.v_n)
     }
 
-    /// With the position error and the nominal's velocity reduced to these shares, in [0, 1]: energy given up.
-    #[must_use]
-    pub fn reduced(self, e: Real, v_n: Real) -> Self {
-        Self {
-            axis: Axis {
-                v_n: self.axis.v_n * v_n,
-                ..self.axis
-            },
-            e: self.e * e,
-            ..self
-        }
-    }
-
-    /// What the axis asks for with the human's force `f_h` (N): nominal and coupling are solved together, within the
-    /// bounds and the `request`.
-    pub fn propose(self, f_h: Real, request: &Request, settings: &Settings) -> Proposal {
-        let Self { axis, q, e } = self;
-        let damped = Gains {
-            D_n: axis.gains.D_n + request.damping,
-            ..axis.gains
-        };
-        let sample = Sample {
-            e,
-            v_n: axis.v_n,
-            dq: axis.motion.dq(),
-            f_h,
-        };
-        let interval = axis
-            .bounds
-            .interval(q + e, settings.T, request.hold)
-            .no_faster_than(request.speed);
-        let free = midpoint::coupled(&damped, settings.reaction(), settings.T, &sample);
-        let v_m = interval.keep(free.v_m);
-        let held = v_m != free.v_m;
-        let wish = if held {
-            let y = midpoint::coupling(&damped, settings.T, &sample, v_m);
-            Midpoint { v_m, y }
-        } else {
-            free
-        };
-        Proposal {
-            axis,
-            damped,
-            interval,
-            q,
-            sample,
-            wish,
-            held,
-        }
+    /// Gives up energy: the position error and the nominal's velocity are reduced to these fractions, in [0, 1].
+    pub fn reduce(&mut self, e: Real, v_n: Real) {
+        self.e *= e;
+        self.v_n *= v_n;
     }
 }
 
@@ -218,64 +234,54 @@ impl Proposal {
 
     /// K y before any limit, N.
     pub fn f_demand(&self) -> Real {
-        self.damped.K * self.wish.y
+        self.f_demand
     }
 
     /// K y within ±f_max, N.
     pub fn f(&self) -> Real {
-        sat(self.f_demand(), self.damped.f_max)
+        sat(self.f_demand, self.gains.f_max)
     }
 
-    /// v_m (m/s) if the robot gets the force `f` (N), and whether the bounds kept it back.
-    fn v_m(&self, f: Real, settings: &Settings) -> (Real, bool) {
+    /// How the nominal moves if the robot gets the force `f` (N).
+    #[inline]
+    pub fn driven(&self, f: Real, settings: &Settings) -> Driven {
         match settings.law.row().felt {
-            Felt::Delivered if f != self.f_demand() => {
+            Felt::Delivered if f != self.f_demand => {
                 let (alpha, T) = (settings.reaction(), settings.T);
-                let y_s = f / self.damped.K;
-                let free = midpoint::driven(&self.damped, alpha, T, &self.sample, y_s);
+                let y_s = f / self.gains.K;
+                let free = midpoint::driven(&self.gains, alpha, T, &self.sample, y_s);
                 let v_m = self.interval.keep(free);
-                (v_m, v_m != free)
+                Driven {
+                    v_m,
+                    held: v_m != free,
+                }
             }
-            Felt::Delivered | Felt::Coupling | Felt::Nothing => (self.wish.v_m, self.held),
+            Felt::Delivered | Felt::Coupling | Felt::Nothing => self.wish,
         }
     }
 
-    /// Energy (J) that the law is sure to take in the sample that begins, if the robot gets the force `f` (N) under
-    /// `passive_bounded`: what the human brings less what the nominal keeps, its damping, and the spring, which can be
-    /// given up afterwards.
+    /// Energy (J) that the law is sure to take in the sample that begins, if the robot gets the force `f` (N) and the nominal
+    /// feels it: what the human brings less what the nominal keeps, its damping, and the spring, which can be given up
+    /// afterwards.
     ///
     /// −ΔH + (K/alpha) f_h v_m T ≥ K y v_m T + (K/alpha) D_n v_m² T + ½ K K_P e²
+    #[inline]
     pub fn taken(&self, f: Real, settings: &Settings) -> Real {
-        let Gains { D_n, K, .. } = self.damped;
-        let (v_m, _) = self.v_m(f, settings);
+        let Driven { v_m, .. } = self.driven(f, settings);
         f * v_m * settings.T
-            + K / settings.alpha * D_n * v_m * v_m * settings.T
-            + storage::spring(settings.law, &self.damped, self.sample.e)
+            + self.gains.K / settings.alpha * self.sample.D_n * v_m * v_m * settings.T
+            + storage::spring(settings.law, &self.gains, self.sample.e)
     }
 
-    /// The nominal moves on, while the robot gets the force `f` (N), which the caller's limits left of [`f`](Self::f).
-    pub fn commit(self, f: Real, settings: &Settings) -> Committed {
-        let Self { damped, sample, .. } = &self;
-        let T = settings.T;
-        let (v_m, held) = self.v_m(f, settings);
-        let mut v_n = midpoint::end(sample, v_m);
-        if held {
-            v_n = slower(v_n, v_m);
-        }
-        match settings.law.row().spring {
-            Spring::Slips if f != self.f_demand() => {
-                v_n = slower(v_n, midpoint::at_the_bound(damped, T, sample, f / damped.K));
-            }
-            Spring::Slips | Spring::Limited | Spring::Free => {}
-        }
-        Committed {
-            axis: Axis {
-                q_n: self.q_n() + T * v_m,
-                v_n: floored(v_n),
-                ..self.axis
-            },
-            supplied: midpoint::supplied(damped, settings.alpha, T, sample, v_m),
-            held,
-        }
+    /// Energy (K/alpha) f_h v_m T that the human's port brings in the sample that begins, J. Not finite for alpha = 0.
+    #[inline]
+    pub fn supplied(&self, driven: Driven, settings: &Settings) -> Real {
+        midpoint::supplied(
+            &self.gains,
+            settings.alpha,
+            settings.T,
+            &self.sample,
+            driven.v_m,
+        )
     }
 }

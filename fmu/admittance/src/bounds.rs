@@ -124,9 +124,28 @@ pub struct Interval {
 }
 
 impl Interval {
+    /// All velocities.
+    const ALL: Self = Self {
+        low: Real::NEG_INFINITY,
+        high: Real::INFINITY,
+    };
+
+    /// That of a nominal at `q_n` (m) within `bounds`, or without any; 0 alone where it is to `hold`.
+    #[inline]
+    pub fn within(bounds: Option<&Bounds>, q_n: Real, T: Real, hold: bool) -> Self {
+        match bounds {
+            None if !hold => Self::ALL,
+            _ => bounds.copied().unwrap_or_default().interval(q_n, T, hold),
+        }
+    }
+
     /// The part of it within ±`speed` (m/s, ≥ 0).
     #[must_use]
+    #[inline]
     pub fn no_faster_than(self, speed: Real) -> Self {
+        if speed == Real::INFINITY {
+            return self;
+        }
         Self {
             low: real::max(self.low, -speed),
             high: real::min(self.high, speed),
@@ -134,6 +153,7 @@ impl Interval {
     }
 
     /// `v_m` (m/s) within; NaN stays NaN.
+    #[inline]
     pub fn keep(&self, v_m: Real) -> Real {
         if v_m > self.high {
             self.high

@@ -1,9 +1,9 @@
 //! What a force may cost at most, and how much of it the tank can pay for.
 //!
 //! A force is held before it is known how the robot will move. Within the [`Reach`] that is stated for the robot, the
-//! sample can cost no more than the work that the force does on the worst motion, less what the law is sure to take: what
-//! the human's port brings minus what the nominal keeps, its damping, and the spring, which can be given up afterwards.
-//! [`share`] finds the share of the force for which the tank covers that. `docs/passivity.md` has the argument.
+//! sample can cost no more than the work that the force does on the worst motion, less what the law is sure to take. It is
+//! sure to take what the human's port brings, less what the nominal keeps; its damping; and the spring, which can be given up
+//! afterwards. [`share`] finds the share of the force for which the tank covers that. `docs/passivity.md` has the argument.
 
 use crate::parameters::{check, limit};
 use crate::{ParameterError, Real, real};
@@ -19,6 +19,17 @@ pub struct Reach<const N: usize> {
     pub v_max: SVector<Real, N>,
     /// Largest change of the speed, m/s² (rad/s²); infinite where only the speed is bounded.
     pub a_max: SVector<Real, N>,
+}
+
+/// The reach in a sample of a certain length.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct SampleReach<const N: usize> {
+    reach: Reach<N>,
+    T: Real,
+    /// v_max T and a_max T², with the rounding that is allowed for, m
+    step: SVector<Real, N>,
+    change: SVector<Real, N>,
 }
 
 /// What a motion at the very bound may exceed it by, relatively: differences of positions round.
@@ -52,25 +63,33 @@ impl<const N: usize> Reach<N> {
         }
         Ok(())
     }
+}
+
+impl<const N: usize> SampleReach<N> {
+    /// The `reach` in a sample of `T` (s).
+    pub fn new(reach: &Reach<N>, T: Real) -> Self {
+        Self {
+            reach: *reach,
+            T,
+            step: reach.v_max.map(|v_max| v_max * T * (1.0 + ROUNDING)),
+            change: reach.a_max.map(|a_max| a_max * T * T * (1.0 + ROUNDING)),
+        }
+    }
 
     /// Most work (J) that the constant force `f` (N) can do in the `n`-th sample from now (1 or 2), if the last one moved
     /// the robot by `last` (m):
     ///
     /// f·Δq ≤ Σ min(|f| v_max T, f Δq_last + n |f| a_max T²)
-    pub fn most_work(
-        &self,
-        f: &SVector<Real, N>,
-        last: Option<&SVector<Real, N>>,
-        n: u8,
-        T: Real,
-    ) -> Real {
+    #[inline]
+    pub fn most_work(&self, f: &SVector<Real, N>, last: Option<&SVector<Real, N>>, n: u8) -> Real {
+        let Self { reach, T, .. } = self;
         let mut work = 0.0;
         for i in 0..N {
             let (f, force) = (f[i], real::abs(f[i]));
             if force > 0.0 {
-                let by_speed = force * self.v_max[i] * T;
+                let by_speed = force * reach.v_max[i] * T;
                 let by_acceleration = last.map_or(by_speed, |last| {
-                    f * last[i] + Real::from(n) * force * self.a_max[i] * T * T
+                    f * last[i] + Real::from(n) * force * reach.a_max[i] * T * T
                 });
                 work += real::min(by_speed, by_acceleration);
             }
@@ -78,18 +97,13 @@ impl<const N: usize> Reach<N> {
         work
     }
 
-    /// Whether a motion by `step` (m) in a sample, after one by `last`, is one for which nothing is promised. The product's
-    /// rounding is allowed for.
-    pub fn is_left(
-        &self,
-        step: &SVector<Real, N>,
-        last: Option<&SVector<Real, N>>,
-        T: Real,
-    ) -> bool {
+    /// Whether a motion by `step` (m), after one by `last`, is one for which nothing is promised. The product's rounding is
+    /// allowed for.
+    #[inline]
+    pub fn is_left(&self, step: &SVector<Real, N>, last: Option<&SVector<Real, N>>) -> bool {
         (0..N).any(|i| {
             let change = last.map_or(0.0, |last| step[i] - last[i]);
-            let beyond = |moved, most| real::abs(moved) > most * (1.0 + ROUNDING);
-            beyond(step[i], self.v_max[i] * T) || beyond(change, self.a_max[i] * T * T)
+            real::abs(step[i]) > self.step[i] || real::abs(change) > self.change[i]
         })
     }
 }
@@ -101,10 +115,17 @@ const HALVINGS: u32 = Real::MANTISSA_DIGITS;
 ///
 /// The need is continuous and need(0) is what no force at all would cost. It is evaluated for the share that is returned,
 /// never extrapolated; the time is bounded.
+#[inline]
 pub fn share(need: impl Fn(Real) -> Real, tank: Real) -> Real {
     if need(1.0) <= tank {
         return 1.0;
     }
+    halved(need, tank)
+}
+
+/// The same where the whole is not covered.
+#[cold]
+fn halved(need: impl Fn(Real) -> Real, tank: Real) -> Real {
     let (mut covered, mut not) = (0.0, 1.0);
     for _ in 0..HALVINGS {
         let between = 0.5 * (covered + not);
@@ -115,16 +136,4 @@ pub fn share(need: impl Fn(Real) -> Real, tank: Real) -> Real {
         }
     }
     covered
-}
-
-/// Share λ in [0, 1] of the way from the force `last` to the force `asked` (N) on which no element changes by more than
-/// `most` (N).
-pub fn share_of_the_way<const N: usize>(
-    last: &SVector<Real, N>,
-    asked: &SVector<Real, N>,
-    most: &SVector<Real, N>,
-) -> Real {
-    (asked - last)
-        .zip_map(most, |way, most| most / real::abs(way))
-        .fold(1.0, real::min)
 }

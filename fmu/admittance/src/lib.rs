@@ -40,31 +40,62 @@
 //! On a rotary axis read rad for m, N·m for N, kg·m² for kg. Forces act on the robot and are positive along the axis; q,
 //! q_n and f_h are components along the same axis, in whatever frame the caller uses.
 //!
-//! A tick, in this order:
-//! 1. [`sense`](Axes::sense): gains on their way take over, the spring slips.
-//! 2. [`settle`](Ledger::settle): what the last sample created is booked; the tank stays ≥ 0.
-//! 3. [`propose`](axes::Sensed::propose): nominal and coupling are solved together, within the [`Bounds`].
-//! 4. What the actuators deliver of it, then [`share`](Ledger::share): what the tank covers of that.
-//! 5. [`commit`](Axes::commit): the nominal moves on, feeling what its [`Law`] says.
+//! # A tick
 //!
-//! [`Admittance`] does all of it where the axes are the robot's own; a task space does step 4 at the joints.
+//! [`Sampled::tick`](tick::Sampled::tick) is all of it:
+//! 1. **Settle**: what the last sample created is known now, and the tank pays for it.
+//! 2. **Propose**: nominal and coupling are solved together, within the [`Bounds`].
+//! 3. **Deliver**: what the actuators give of that.
+//! 4. **Share**: what the tank covers of that.
+//! 5. **Commit**: the nominal moves on, feeling what its [`Law`] says, and the sample that begins is booked.
+//!
+//! Steps 1 to 4 change nothing; a tick that is refused leaves the law as it was. [`Admittance`] is the law where the axes are
+//! the robot's own; a task space delivers at the joints.
+//!
+//! # Words
+//!
+//! | word | meaning |
+//! |---|---|
+//! | demand | K y, what the coupling asks for before any limit |
+//! | authority | the part of its force that the law may exert, in [0, 1]: it fades in and out. Whoever calls decides it |
+//! | deliver | what the actuators give of the force that they are asked for, within their limits |
+//! | share | the part of the delivered force that the tank covers, in [0, 1]: 1 unless something is wrong. The law decides it |
+//! | reach | how fast the robot can move: the motions for which passivity is promised |
+//! | slip | the spring gives up what alone would exceed f_max, and q_n goes along |
+//! | reset | v_n⁺ is replaced by a velocity of less energy, where a limit acts |
+//! | stored energy, H | what is in the nominal mass and the spring |
+//! | created energy, G | what the sampled law gave out and nobody brought; negative: dissipated |
+//! | supplied energy | what the human's port brings in a sample |
+//! | taken energy | what the law is sure to take in the sample that begins: the least that it will not give out |
+//! | need | the most that the sample which begins can cost: the most work that the force can do within the reach, less what is taken |
+//! | tank, E | E_0 less what was created, refilled by dissipation up to E_0 |
+//! | ledger | the accounts of H, G and E, exact to rounding |
+//! | settle | to account for the sample that ended, and to give up stored energy where the tank cannot pay otherwise |
+//! | settlement | the account of that sample, before it is booked |
+//! | book | to take a settlement over and open the sample that begins |
+//! | budget | settling and sharing together: what keeps the tank ≥ 0 |
+//! | debt | a tank below zero, after a motion beyond the reach |
+//! | reserved | the work that may still come of a force which has been said and, with a delay, acts only now |
+//! | alpha | the paper's hidden unit damper, N·s/m. Not the α of the paper's definition of passivity |
+//!
+//! # Modules
 //!
 //! | module | what |
 //! |---|---|
 //! | [`law`] | the laws, one row each: number, name, what the nominal feels, how the spring behaves |
-//! | [`listed`] | laws as messages list them |
-//! | [`parameters`] | [`Settings`], [`Gains`], their checks and the error that names the culprit |
-//! | [`real`] | the number: double or single precision, and its functions |
-//! | [`motion`] | backward difference, low pass |
-//! | [`midpoint`] | the implicit midpoint rule: the law's arithmetic |
-//! | [`axis`] | one axis: slip, midpoint, clamp, reset |
-//! | [`bounds`] | limits inside the law: speed, position box, hold |
-//! | [`axes`] | N axes, without a ledger |
-//! | [`storage`] | the energy that an axis holds |
-//! | [`retune`] | live gain changes that do not raise it |
-//! | [`ledger`] | what the sampled law created, and the tank |
-//! | [`budget`] | what a force may cost at most, and what share of it the tank covers |
+//! | [`tick`] | one tick, whatever the coordinates and the actuators |
 //! | [`admittance`] | N axes under one ledger |
+//! | [`axes`], [`axis`] | N axes without a ledger; one axis: slip, midpoint, clamp, reset |
+//! | [`midpoint`] | the implicit midpoint rule: the law's arithmetic |
+//! | [`bounds`], [`rate`] | limits inside the law: speed, position box, hold; the rate of its force |
+//! | [`storage`] | the energy that an axis holds; the spring's slip |
+//! | [`ledger`], [`settling`] | what the sampled law created, and the tank; the sample that ended |
+//! | [`budget`] | what a force may cost at most, and what share of it the tank covers |
+//! | [`parameters`] | [`Settings`], [`Gains`], their checks and the error that names the culprit |
+//! | [`retune`] | live gain changes that do not raise the stored energy |
+//! | [`motion`] | backward difference, low pass |
+//! | [`real`] | the number: double or single precision, and its functions |
+//! | [`listed`] | laws as messages list them |
 //! | [`advice`] | gains that are accepted, but probably not meant |
 //! | [`hand`] | a hand too stiff for the gains: seen by its growing swing, answered with damping |
 //! | [`servo`] | the law for a drive that takes positions and velocities, one axis |
@@ -97,13 +128,16 @@ pub mod natural;
 pub mod one_axis;
 pub mod origin;
 pub mod parameters;
+pub mod rate;
 pub mod real;
 pub mod retune;
 pub mod servo;
+pub mod settling;
 pub mod sliding_mode;
 pub mod storage;
+pub mod tick;
 
-pub use admittance::{Admittance, Tick};
+pub use admittance::Admittance;
 pub use axes::{Axes, Request};
 pub use axis::Axis;
 pub use bounds::Bounds;
@@ -116,3 +150,4 @@ pub use parameters::{Gains, ParameterError, Settings};
 pub use real::Real;
 pub use servo::Servo;
 pub use sliding_mode::SlidingMode;
+pub use tick::Tick;

@@ -21,6 +21,8 @@ pub struct Sample {
     pub dq: Real,
     /// Force of the human on the handle, N.
     pub f_h: Real,
+    /// Damping of the nominal in this sample, N·s/m: D_n of the gains and what comes on top.
+    pub D_n: Real,
 }
 
 /// What one sample of the law arrives at.
@@ -38,8 +40,14 @@ pub struct Midpoint {
 /// v_m = (2 M_n v_n/T + f_h + alpha(dq + K_P T dq/2 − K_P e)) / (2 M_n/T + D_n + c)
 /// y = (v_m − dq) + K_P(e + T(v_m − dq)/2)
 pub fn coupled(gains: &Gains, alpha: Real, T: Real, sample: &Sample) -> Midpoint {
-    let Gains { M_n, D_n, K_P, .. } = *gains;
-    let Sample { e, v_n, dq, f_h } = *sample;
+    let Gains { M_n, K_P, .. } = *gains;
+    let Sample {
+        e,
+        v_n,
+        dq,
+        f_h,
+        D_n,
+    } = *sample;
     let c = alpha * (1.0 + K_P * T / 2.0);
     let v_m = (2.0 * M_n * v_n / T + f_h + alpha * (dq + K_P * T * dq / 2.0 - K_P * e))
         / (2.0 * M_n / T + D_n + c);
@@ -59,8 +67,8 @@ pub fn coupling(gains: &Gains, T: Real, sample: &Sample, v_m: Real) -> Real {
 ///
 /// v_m = (2 M_n v_n/T + f_h − alpha y_s) / (2 M_n/T + D_n)
 pub fn driven(gains: &Gains, alpha: Real, T: Real, sample: &Sample, y_s: Real) -> Real {
-    let Gains { M_n, D_n, .. } = *gains;
-    let Sample { v_n, f_h, .. } = *sample;
+    let M_n = gains.M_n;
+    let Sample { v_n, f_h, D_n, .. } = *sample;
     (2.0 * M_n * v_n / T + f_h - alpha * y_s) / (2.0 * M_n / T + D_n)
 }
 

@@ -3,6 +3,16 @@
 use crate::real::{self, consts::TAU, floored};
 use crate::{Real, Settings};
 
+/// How positions are sampled.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Sampling {
+    /// sample period, s
+    T: Real,
+    /// 1 − exp(−2π f_c T) of the exact sampled first-order low pass, if there is one
+    weight: Option<Real>,
+}
+
 /// The robot's velocity on one axis, from positions alone.
 ///
 /// dq = (q_k − q_{k−1})/T, 0 at the first tick; with a low pass of corner frequency f_c,
@@ -14,34 +24,34 @@ pub struct Motion {
     dq: Real,
 }
 
+impl Sampling {
+    /// That of `settings`: their sample period and low pass.
+    pub fn new(settings: &Settings) -> Self {
+        let Settings { T, dq_cutoff, .. } = *settings;
+        Self {
+            T,
+            weight: (dq_cutoff > 0.0).then(|| -real::exp_m1(-TAU * dq_cutoff * T)),
+        }
+    }
+}
+
 impl Motion {
     /// The motion after `q` (m) has been sensed at a tick.
     #[must_use]
-    pub fn sensed(self, q: Real, settings: &Settings) -> Self {
-        let Some(last) = self.q else {
-            return Self {
-                q: Some(q),
-                ..Self::default()
-            };
-        };
-        let difference = (q - last) / settings.T;
-        Self {
-            q: Some(q),
-            dq: if settings.dq_cutoff > 0.0 {
-                floored(self.dq + weight(settings) * (difference - self.dq))
-            } else {
-                difference
-            },
-        }
+    #[inline]
+    pub fn sensed(&self, q: Real, sampling: &Sampling) -> Self {
+        let dq = self.q.map_or(0.0, |last| {
+            let difference = (q - last) / sampling.T;
+            match sampling.weight {
+                Some(weight) => floored(self.dq + weight * (difference - self.dq)),
+                None => difference,
+            }
+        });
+        Self { q: Some(q), dq }
     }
 
     /// The velocity that the law uses, m/s.
     pub fn dq(&self) -> Real {
         self.dq
     }
-}
-
-/// 1 − exp(−2π f_c T): the exact sampled first-order low pass.
-fn weight(settings: &Settings) -> Real {
-    -real::exp_m1(-TAU * settings.dq_cutoff * settings.T)
 }

@@ -34,6 +34,7 @@
 
 use crate::comparator::{self, Tick};
 use crate::midpoint::{self, Sample};
+use crate::motion::Sampling;
 use crate::parameters::check;
 use crate::real::{self, floored, sat};
 use crate::{Gains, Motion, ParameterError, Real, Settings};
@@ -43,7 +44,8 @@ use declaration::range::POSITIVE;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Natural {
-    settings: Settings,
+    sampling: Sampling,
+    T: Real,
     gains: Gains,
     M: Real,
     q_d: Option<Real>,
@@ -62,7 +64,8 @@ impl Natural {
         gains.check(None)?;
         check(None, &[("comparator.M", M, POSITIVE)])?;
         Ok(Self {
-            settings,
+            sampling: Sampling::new(&settings),
+            T: settings.T,
             gains,
             M,
             q_d: None,
@@ -84,8 +87,8 @@ impl Natural {
     /// One tick at position `q` (m) with the human's force `f_h` (N); the first one engages with q_d = q, v_d = 0.
     pub fn step(&mut self, q: Real, f_h: Real) -> Tick {
         let Gains { D_n, K, f_max, .. } = self.gains;
-        let T = self.settings.T;
-        self.motion = self.motion.sensed(q, &self.settings);
+        let T = self.T;
+        self.motion = self.motion.sensed(q, &self.sampling);
         let dq = self.motion.dq();
         let (q_d, v_d) = (self.q_d.unwrap_or(q), self.v_d);
         let e = q_d - q;
@@ -96,6 +99,7 @@ impl Natural {
             v_n: v_d,
             dq,
             f_h,
+            D_n: 0.0, // the damper acts on the robot
         };
         // Not midpoint::driven, which rounds otherwise: nothing on the left damps, so that T is not divided by and taken back.
         let v_m = v_d + T * (f_h + f_v) / (2.0 * self.M);

@@ -1,6 +1,7 @@
 //! Parameters, checked when a law is built.
 
 use crate::law::Felt;
+use crate::retune::Gradual;
 use crate::{Law, Real};
 use core::fmt;
 use declaration::check::{self, Expected, Objection};
@@ -128,9 +129,13 @@ impl fmt::Display for ParameterError {
 
 impl core::error::Error for ParameterError {}
 
-/// A limit that may be infinite, as one that a [`Range`] accepts.
+/// A limit that may be infinite, as one that a [`Range`] accepts; NaN stays what it is.
 pub fn limit(limit: Real) -> Real {
-    limit.min(Real::MAX)
+    if limit == Real::INFINITY {
+        Real::MAX
+    } else {
+        limit
+    }
 }
 
 /// Whether every parameter of `of` lies in the range that its row says, under the row's name.
@@ -165,6 +170,10 @@ impl From<Objection> for ParameterError {
 ///
 /// # Errors
 /// The first value out of its range.
+#[allow(
+    clippy::useless_conversion,
+    reason = "in single precision a Real is not an f64"
+)]
 pub fn check(
     axis: Option<usize>,
     list: &[(&'static str, Real, Range)],
@@ -218,11 +227,9 @@ impl Settings {
     }
 }
 
-impl Gains {
-    /// These gains one tick further on the straight way to `wanted`, of which `remaining` ticks are left (at least 1). A
-    /// gain that is infinite, or is to be, changes at once.
-    #[must_use]
-    pub fn toward(&self, wanted: &Self, remaining: u32) -> Self {
+impl Gradual for Gains {
+    /// A gain that is infinite, or is to be, changes at once.
+    fn toward(&self, wanted: &Self, remaining: u32) -> Self {
         let next = |from: Real, to: Real| {
             let step = (to - from) / remaining as Real;
             if remaining > 1 && step.is_finite() {
@@ -239,7 +246,9 @@ impl Gains {
             f_max: next(self.f_max, wanted.f_max),
         }
     }
+}
 
+impl Gains {
     /// Whether an axis can be built with them; `axis` (from 1) is for the message.
     ///
     /// # Errors

@@ -3,10 +3,10 @@
 //! [`Real`] is `f64` in the package `admittance` and `f32` in `admittance-f32`, which compiles the same sources. The
 //! functions are those of `libm`, called directly: the same digits on every platform, with and without `std`.
 
-/// The law's number: double precision, or single precision in the package `admittance-f32`.
+/// The law's number: double precision, or single precision in the packages and libraries named f32.
 #[cfg(not(feature = "f32"))]
 pub type Real = f64;
-/// The law's number: double precision, or single precision in the package `admittance-f32`.
+/// The law's number: double precision, or single precision in the packages and libraries named f32.
 #[cfg(feature = "f32")]
 pub type Real = f32;
 

@@ -45,6 +45,7 @@
 
 use crate::law::Spring;
 use crate::midpoint::{self, Sample, slower};
+use crate::motion::Sampling;
 use crate::real::{self, floored};
 use crate::{Gains, Motion, ParameterError, Real, Settings, storage};
 use declaration::check::Expected;
@@ -54,6 +55,7 @@ use declaration::check::Expected;
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Servo {
     settings: Settings,
+    sampling: Sampling,
     gains: Gains,
     q_n: Option<Real>,
     v_n: Real,
@@ -107,6 +109,7 @@ impl Servo {
         }
         let mut servo = Self {
             settings,
+            sampling: Sampling::new(&settings),
             gains,
             q_n: None,
             v_n: 0.0,
@@ -157,7 +160,7 @@ impl Servo {
             settings, gains, ..
         } = *self;
         let T = settings.T;
-        self.motion = self.motion.sensed(q, &self.settings);
+        self.motion = self.motion.sensed(q, &self.sampling);
         let dq = self.motion.dq();
         let e = self
             .q_n
@@ -166,7 +169,13 @@ impl Servo {
         self.settle(q, e, tau_m);
 
         let tau_m = if self.q_n.is_some() { tau_m } else { 0.0 };
-        let sample = Sample { e, v_n, dq, f_h };
+        let sample = Sample {
+            e,
+            v_n,
+            dq,
+            f_h,
+            D_n: gains.D_n,
+        };
         let y = tau_m / gains.K;
         let v_m = midpoint::driven(&gains, settings.reaction(), T, &sample, y);
         let saturated = real::abs(tau_m) >= gains.f_max;

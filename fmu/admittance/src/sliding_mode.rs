@@ -34,6 +34,7 @@
 
 use crate::comparator::{self, Tick};
 use crate::midpoint::{self, Sample};
+use crate::motion::Sampling;
 use crate::parameters::check;
 use crate::real::{floored, sat};
 use crate::{Gains, Motion, ParameterError, Real, Settings};
@@ -43,7 +44,8 @@ use declaration::range::NOT_NEGATIVE;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SlidingMode {
-    settings: Settings,
+    sampling: Sampling,
+    T: Real,
     gains: Gains,
     H: Real,
     q_n: Option<Real>,
@@ -63,7 +65,8 @@ impl SlidingMode {
         gains.check(None)?;
         check(None, &[("comparator.H", H, NOT_NEGATIVE)])?;
         Ok(Self {
-            settings,
+            sampling: Sampling::new(&settings),
+            T: settings.T,
             gains,
             H,
             q_n: None,
@@ -86,8 +89,8 @@ impl SlidingMode {
     /// One tick at position `q` (m) with the human's force `f_h` (N); the first one engages with q_n = q, v_n = 0, b = 0.
     pub fn step(&mut self, q: Real, f_h: Real) -> Tick {
         let Gains { K, K_P, f_max, .. } = self.gains;
-        let (T, H) = (self.settings.T, self.H);
-        self.motion = self.motion.sensed(q, &self.settings);
+        let (T, H) = (self.T, self.H);
+        self.motion = self.motion.sensed(q, &self.sampling);
         let dq = self.motion.dq();
         let (q_n, v_n) = (self.q_n.unwrap_or(q), self.v_n);
 
@@ -96,6 +99,7 @@ impl SlidingMode {
             v_n,
             dq,
             f_h,
+            D_n: self.gains.D_n,
         };
         let v_m = midpoint::driven(&self.gains, 0.0, T, &sample, 0.0); // no reaction
         let de = v_m - dq;

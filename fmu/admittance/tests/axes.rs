@@ -1,6 +1,7 @@
 //! N axes are N times the one axis, under one ledger and one factor.
 #![allow(non_snake_case, reason = "the paper's symbols")]
 
+use admittance::tick::Coordinates;
 use admittance::{Admittance, Axes, Gains, Law, Ledger, Reach, Request, Settings};
 use nalgebra::{Vector1, Vector3};
 
@@ -159,25 +160,27 @@ fn axes_with_a_ledger_of_the_callers_own_make_the_law() {
         };
         let mut law = Admittance::new(settings, GAINS).expect("valid parameters");
         let mut axes = Axes::new(settings, GAINS).expect("valid parameters");
-        let mut own = Ledger::new(&settings, Reach::default());
+        let mut own = Ledger::new(&settings, &Reach::default());
         for k in 0..1000 {
             let (q, f_h) = world(k);
             if k == 500 {
                 law.rest(&q);
-                axes.rest(&q);
-                own = own.settled(0.0, &q).opened(&Vector3::zeros(), 0.0);
+                axes.rest();
+                let ended = own.close(0.0, &q);
+                own.book(&ended, &Vector3::zeros(), 0.0);
             } else {
                 let tick = law.step(&q, &f_h);
-                let (ledger, sensed) = own.settle(axes.sense(&q), &settings, &q);
-                let ledger = if axes.is_engaged() {
-                    ledger
-                } else {
-                    ledger.without_motion()
-                };
-                let proposal = sensed.propose(&f_h, &Request::default(), &settings);
-                let f = proposal.f();
+                let mut sensed = axes.sense(&q);
+                let mut ended = own.settle(&mut sensed, &settings, &q);
+                if !axes.is_engaged() {
+                    ended = ended.without_motion();
+                }
+                let proposal = axes.propose(&sensed, &f_h, &Request::default());
+                let f = axes.f(&proposal);
                 assert_eq!(f, tick.f);
-                own = ledger.opened(&f, axes.commit(proposal, &f).supplied);
+                let driven = axes.driven(&proposal, &f);
+                own.book(&ended, &f, axes.supplied(&proposal, &driven));
+                axes.commit(&proposal, &driven, &f);
             }
             assert_eq!(&own, law.ledger(), "tick {k}");
         }

@@ -125,7 +125,7 @@ fn errors_name_the_parameter_the_axis_the_value_and_the_range() {
     );
     assert_eq!(
         settings(|s| s.T = f64::NAN),
-        format!("T = NaN: {finite} greater than 0")
+        format!("T = NaN: {finite}, at least 1e-6")
     );
     assert_eq!(
         settings(|s| s.dq_cutoff = f64::INFINITY),
@@ -146,11 +146,11 @@ fn errors_name_the_parameter_the_axis_the_value_and_the_range() {
     };
     assert_eq!(
         reaching(f64::INFINITY, 1.0),
-        format!("v_max = inf: {finite} greater than 0")
+        format!("v_max = inf: {finite}, at least 1e-6")
     );
     assert_eq!(
         reaching(1.0, f64::NAN),
-        "a_max = NaN: expected a value greater than 0"
+        format!("a_max = NaN: {finite}, at least 1e-6")
     );
     let offered = "1 (standard), 2 (passive), 3 (passive_applied), 4 (passive_bounded)";
     assert_eq!(
@@ -168,7 +168,7 @@ fn errors_name_the_parameter_the_axis_the_value_and_the_range() {
         |gains| Admittance::new(Settings::default(), [GAINS, gains]).expect_err("out of range");
     assert_eq!(
         second(Gains { K_P: 0.0, ..GAINS }).to_string(),
-        format!("K_P[2] = 0: {finite} greater than 0")
+        format!("K_P[2] = 0: {finite}, at least 1e-6")
     );
     assert_eq!(
         second(Gains {
@@ -176,7 +176,7 @@ fn errors_name_the_parameter_the_axis_the_value_and_the_range() {
             ..GAINS
         })
         .to_string(),
-        "f_max[2] = -3: expected a value greater than 0"
+        format!("f_max[2] = -3: {finite}, at least 1e-6")
     );
     assert!(
         Admittance::new(

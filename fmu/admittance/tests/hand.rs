@@ -9,7 +9,7 @@ use std::f64::consts::TAU;
 
 const T: f64 = 0.001;
 const ON: StiffHand = StiffHand {
-    active: true,
+    active: 1,
     D_max: 200.0,
     f_low: 1.0,
     f_high: 8.0,
@@ -265,13 +265,21 @@ fn held(watch: &Watch, duration: f64, kick: f64, k_h: impl Fn(f64) -> f64) -> Ve
             let pushed = if t < 0.3 { kick } else { 0.0 };
             let f_h = pushed - k_h(t) * q;
             detector = detector.sensed(q, f_h, watch);
-            let gains = Gains {
-                D_n: gains.D_n + detector.D(),
-                ..gains
-            };
+            let D_n = gains.D_n + detector.D();
             let dq = (q - last) / T;
             let e = q_n - q;
-            let done = midpoint::coupled(&gains, 1.0, T, &Sample { e, v_n, dq, f_h });
+            let done = midpoint::coupled(
+                &gains,
+                1.0,
+                T,
+                &Sample {
+                    e,
+                    v_n,
+                    dq,
+                    f_h,
+                    D_n,
+                },
+            );
             let shown = (t, q, detector.D());
             last = q;
             q_n += T * done.v_m;
@@ -294,14 +302,7 @@ fn swing(run: &[(f64, f64, f64)], after: f64, before: f64) -> f64 {
 
 #[test]
 fn the_loop_that_swings_up_without_the_detector_comes_to_rest_with_it() {
-    let off = Watch::new(
-        StiffHand {
-            active: false,
-            ..ON
-        },
-        T,
-    )
-    .expect("valid parameters");
+    let off = Watch::new(StiffHand { active: 0, ..ON }, T).expect("valid parameters");
     for k_h in [460.0, 700.0, 1000.0, 2000.0] {
         let alone = held(&off, 6.0, 2.0, |_| k_h);
         assert!(

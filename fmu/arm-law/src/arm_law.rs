@@ -4,39 +4,59 @@
 
 use crate::choices::WRENCH;
 use crate::displacement::Origin;
-use crate::form::Form;
-use crate::joint_space::Nominal;
+use crate::joint_space::{JointSpace, Nominal};
 use crate::kinematics::{Kinematics, Pose};
 use crate::parameters::{ArmParameters, Checked};
 use crate::signals::{ArmInputs, ArmOutputs};
 use crate::singularity::Singularity;
-use crate::stiff_hand::Detectors;
+use crate::space::InSpace;
+use crate::stiff_hand::{self, Detectors, StiffHandSeen};
 use crate::supervision::{self, Demand, Report, Status, Supervisor};
-use crate::task_space::Outcome;
-use crate::wrench::{Conditioned, Conditioner, Fault, Frame, Sample, TareFailure, Wrench};
+use crate::task_space::TaskSpace;
+use crate::wrench::conditioner::Made;
+use crate::wrench::frame::FixedFrame;
+use crate::wrench::{Conditioned, Conditioner, Fault, Sample, TareFailure, Wrench};
 use admittance::origin::{self, Move};
 use admittance::{Bounds, Ledger, ParameterError, Real, Request, real};
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 
-pub use crate::form::Space;
+pub use crate::handle::{HandleTick, NotFinite};
+pub use crate::space::Space;
 
 /// What came of a tick, before it is shown.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Ran {
+    /// where the handle is
     pose: Pose,
-    outcome: Outcome,
+    /// what the law did
+    outcome: HandleTick,
     /// the nominal in joint coordinates; in task space, where it has none, the robot at rest, M_n 0
     nominal: Nominal,
+    /// whether the nominal is slowed before a singularity
     slowed: bool,
-    stiff_hand: Detectors,
+    /// what is known of a stiff hand, after this tick
+    stiff_hand: StiffHandSeen,
+    /// what the law knows of the hand: about the handle, in the base frame
     ft: Conditioned,
     /// what supervision says; without it, that the law does what `engage` and `hold` say
     status: Status,
 }
 
-/// A tick whose result is not finite: an input was not, or numbers overflow.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct NotFinite;
+impl Default for Ran {
+    /// Nothing yet.
+    fn default() -> Self {
+        let zeros = Vector3::zeros();
+        Self {
+            pose: Pose::default(),
+            outcome: HandleTick::at_rest(&zeros, false),
+            nominal: Nominal::at(&zeros, Matrix3::zeros()),
+            slowed: false,
+            stiff_hand: StiffHandSeen::default(),
+            ft: Conditioned::default(),
+            status: Status::of(Demand::Rest),
+        }
+    }
+}
 
 /// The law between two ticks.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -44,20 +64,22 @@ pub struct NotFinite;
 pub struct ArmLaw {
     kinematics: Kinematics,
     singularity: Singularity,
-    stiff_hand: Detectors,
-    frame: Frame,
+    frame: FixedFrame,
+    /// where the hand's force is read: ft.source
     source: i32,
-    conditioner: Conditioner,
-    form: Form,
-    supervisor: Option<Supervisor>,
-    /// the joint angles of the last tick that had a result, rad
-    q: Vector3<Real>,
-    /// the nominal's velocity at the last tick at which it was free, in its own coordinates: m/s or rad/s
-    v_n: Vector3<Real>,
     bounds: [Bounds; 3],
     /// where angles and positions are counted from, if not from zero
     origin: Option<Origin>,
     counting: origin::Origin<3>,
+
+    supervisor: Option<Supervisor>,
+    conditioner: Conditioner,
+    stiff_hand: Detectors,
+    law: InSpace,
+    /// the joint angles of the last tick that had a result, rad
+    q: Vector3<Real>,
+    /// the nominal's velocity at the last tick at which it was free, in its own coordinates: m/s or rad/s
+    v_n: Vector3<Real>,
 }
 
 impl ArmLaw {
@@ -81,12 +103,16 @@ impl ArmLaw {
             kinematics,
             singularity: parameters.singularity,
             stiff_hand: Detectors::new(parameters.stiff_hand, T)?,
-            frame: parameters.ft.sensed_in(),
+            frame: parameters.ft.sensed_in().fixed(),
             source: parameters.ft.source,
             conditioner: Conditioner::new(parameters.ft, T)?,
-            form: match space {
-                Space::Task => Form::task(settings, gains, bounds, reach, limits)?,
-                Space::Joint => Form::joint(settings, &joint, kinematics, reach, limits)?,
+            law: match space {
+                Space::Task => {
+                    InSpace::Task(TaskSpace::new(settings, gains, bounds, reach, limits)?)
+                }
+                Space::Joint => InSpace::Joint(JointSpace::new(
+                    settings, &joint, kinematics, reach, limits,
+                )?),
             },
             supervisor: supervision
                 .map(|supervision| Supervisor::new(&supervision, T))
@@ -106,8 +132,8 @@ impl ArmLaw {
     /// The first gain out of its range; the gains stay as they were.
     pub fn tune(&mut self, parameters: &ArmParameters) -> Result<(), ParameterError> {
         let (gains, joint_gains) = parameters.tuned()?;
-        self.form.tune(gains)?;
-        self.form.tune_joints(joint_gains)
+        self.law.tune(gains)?;
+        self.law.tune_joints(joint_gains)
     }
 
     /// Counts from the joint angles `q_0` (rad) and from where the handle is there, from the next tick on: `q` of the
@@ -119,8 +145,9 @@ impl ArmLaw {
     /// # Errors
     /// A bound that the origin's distance rounds away; the origin stays as it was.
     pub fn count_from(&mut self, q_0: &Vector3<Real>) -> Result<(), ParameterError> {
-        let Form::Task(task_space) = &mut self.form else {
-            return Ok(());
+        let task_space = match &mut self.law {
+            InSpace::Task(law) => law,
+            InSpace::Joint(_) => return Ok(()),
         };
         let origin = Origin::new(&self.kinematics, q_0);
         let mut bounds = self.bounds;
@@ -145,6 +172,7 @@ impl ArmLaw {
         self.origin.map_or(*q, |origin| origin.q() + q)
     }
 
+    #[inline]
     fn pose(&self, q: &Vector3<Real>) -> Pose {
         match &self.origin {
             Some(origin) => origin.displaced(&self.kinematics, q),
@@ -152,14 +180,30 @@ impl ArmLaw {
         }
     }
 
-    /// One tick, whose results stand in `outputs`.
+    /// One tick. What came of it is written into `outputs`.
     ///
     /// # Errors
-    /// [`NotFinite`], without supervision; law and outputs stay as they were before the tick. With supervision that is a fault
+    /// [`NotFinite`], without supervision: law and outputs stay as they were before the tick. With supervision that is a fault
     /// with a name and no torque.
     pub fn tick(&mut self, inputs: &ArmInputs, outputs: &mut ArmOutputs) -> Result<(), NotFinite> {
-        let before = *self;
-        let ran = self.ran(inputs).inspect_err(|NotFinite| *self = before)?;
+        let mut ran = Ran::default();
+        let q = self.counted(inputs)?;
+        if self.supervisor.is_some() {
+            self.supervised(inputs, &q, &mut ran);
+        } else {
+            let demand = match (inputs.engage != 0, inputs.hold != 0) {
+                (false, _) => Demand::Rest,
+                (true, hold) => Demand::Run {
+                    authority: 1.0,
+                    freedom: if hold { 0.0 } else { 1.0 },
+                },
+            };
+            ran.pose = self.pose(&q);
+            let made = self.sensed(&q, inputs, &mut ran);
+            self.run(&q, demand, &mut ran)?;
+            self.conditioner.keep(&made);
+            ran.status = Status::of(demand);
+        }
         self.counting.ticked(ran.outcome.engaged);
         self.show(&ran, outputs);
         Ok(())
@@ -174,148 +218,140 @@ impl ArmLaw {
             supervisor: None,
             ..*self
         };
-        law.tick(
-            &ArmInputs {
-                engage: 0,
-                ..*inputs
-            },
-            outputs,
-        )?;
-        law.show_hand(&Conditioned::NOTHING, outputs);
+        let resting = ArmInputs {
+            engage: 0,
+            ..*inputs
+        };
+        law.tick(&resting, outputs)?;
+        self.show_hand(&Conditioned::default(), outputs);
         Ok(())
     }
 
-    fn ran(&mut self, inputs: &ArmInputs) -> Result<Ran, NotFinite> {
+    /// The joint angles from where they are counted, rad. In joint space that is zero: the nominal arm is one at the angles
+    /// themselves.
+    fn counted(&mut self, inputs: &ArmInputs) -> Result<Vector3<Real>, NotFinite> {
         let q = Vector3::from(inputs.q);
-        // In joint space the law counts from zero: the nominal arm is one at the angles themselves.
-        let may_engage = inputs.engage != 0 && matches!(self.form, Form::Task(_));
+        let may_engage = match self.law {
+            InSpace::Task(_) => inputs.engage != 0,
+            InSpace::Joint(_) => false,
+        };
         if let Some(Move { q_0, .. }) = self.counting.moves(&q, may_engage) {
             self.count_from(&q_0).map_err(|_| NotFinite)?;
         }
-        let q = self.counting.counted(&q);
-        if let Some(supervisor) = self.supervisor {
-            return Ok(self.supervised(inputs, q, supervisor));
-        }
-        let demand = if inputs.engage != 0 {
-            Demand::Run {
-                authority: 1.0,
-                freedom: if inputs.hold != 0 { 0.0 } else { 1.0 },
-            }
-        } else {
-            Demand::Rest
-        };
-        let pose = self.pose(&q);
-        let ft = self.sensed(&pose, &q, inputs);
-        self.run(&pose, &q, ft, demand)
+        Ok(self.counting.counted(&q))
     }
 
     /// One tick in which supervision decides. What cannot be trusted does not reach the law: without joint angles it rests
     /// where it last knew the arm to be, without a force it feels none.
-    fn supervised(
-        &mut self,
-        inputs: &ArmInputs,
-        q: Vector3<Real>,
-        mut supervisor: Supervisor,
-    ) -> Ran {
-        let before = *self;
+    fn supervised(&mut self, inputs: &ArmInputs, q: &Vector3<Real>, ran: &mut Ran) {
         let is_known = q.iter().all(|q| q.is_finite());
-        let q = if is_known { q } else { self.q };
-        let pose = self.pose(&q);
-        let ft = self.sensed(&pose, &q, inputs);
         let is_seen = is_known && inputs.encoder_valid != 0;
-        let demand = supervisor.step(&supervision::Inputs {
+        let q = if is_known { *q } else { self.q };
+        ran.pose = self.pose(&q);
+        let made = self.sensed(&q, inputs, ran);
+        let demand = self.decided(&supervision::Inputs {
             enable: inputs.enable != 0,
             engage: inputs.engage != 0,
             acknowledge: inputs.acknowledge != 0,
             emergency_stop: inputs.emergency_stop != 0,
             hold: inputs.hold != 0,
             heartbeat: inputs.heartbeat,
-            ft_valid: ft.fault.is_none(),
+            ft_valid: ran.ft.fault.is_none(),
             encoder_valid: is_seen,
-            force: ft.hand.force.norm(),
+            force: ran.ft.hand.force.norm(),
         });
 
-        let ran = if demand == Demand::Rest && !is_seen {
-            Ok(self.abandon(ft))
+        let outcome = if demand == Demand::Rest && !is_seen {
+            self.abandon(ran);
+            Ok(())
         } else {
-            self.run(&pose, &q, ft, demand)
+            self.run(&q, demand, ran)
         };
-        let status = supervisor.judge(&ran.as_ref().map_or(Report::NOT_FINITE, |ran| Report {
-            finite: true,
-            debt: self.ledger().is_in_debt(),
-            outside_bounds: ran.outcome.outside_bounds,
-            saturated: ran.outcome.saturated,
-        }));
-        let ran = ran.unwrap_or_else(|NotFinite| {
-            *self = before;
-            self.abandon(ft)
-        });
-        self.supervisor = Some(supervisor);
-        Ran { status, ..ran }
-    }
-
-    /// No torque, the nominal where the arm was last known to be.
-    fn abandon(&mut self, ft: Conditioned) -> Ran {
-        let pose = self.pose(&self.q);
-        self.stiff_hand = self.stiff_hand.at_rest();
-        let (outcome, nominal) = self.form.abandon(&pose, &self.q);
-        Ran {
-            outcome,
-            nominal,
-            pose,
-            slowed: false,
-            stiff_hand: self.stiff_hand,
-            ft,
-            status: Status::of(Demand::Rest),
+        let report = match outcome {
+            Ok(()) => {
+                self.conditioner.keep(&made);
+                Report {
+                    finite: true,
+                    debt: self.ledger().is_in_debt(),
+                    outside_bounds: ran.outcome.outside_bounds,
+                    saturated: ran.outcome.saturated,
+                }
+            }
+            Err(NotFinite) => {
+                self.abandon(ran);
+                Report::NOT_FINITE
+            }
+        };
+        if let Some(supervisor) = &mut self.supervisor {
+            ran.status = supervisor.judge(&report);
         }
     }
 
-    /// What the law does at joint angles `q` (rad), where the handle is at `pose`, with the hand as it is known; judged by
-    /// nobody. After an error it is not as it was.
-    fn run(
-        &mut self,
-        pose: &Pose,
-        q: &Vector3<Real>,
-        ft: Conditioned,
-        demand: Demand,
-    ) -> Result<Ran, NotFinite> {
-        let damping = if self.form.knows_singularities() {
+    /// What supervision demands; without it, rest.
+    fn decided(&mut self, inputs: &supervision::Inputs) -> Demand {
+        match &mut self.supervisor {
+            Some(supervisor) => supervisor.step(inputs),
+            None => Demand::Rest,
+        }
+    }
+
+    /// No torque, the nominal where the arm was last known to be.
+    #[cold]
+    fn abandon(&mut self, ran: &mut Ran) {
+        let pose = self.pose(&self.q);
+        self.stiff_hand.rest();
+        self.law
+            .abandon(&pose, &self.q, &mut ran.outcome, &mut ran.nominal);
+        ran.pose = pose;
+        ran.slowed = false;
+        ran.stiff_hand = self.stiff_hand.known();
+    }
+
+    /// What the law does at joint angles `q` (rad), with the pose and the hand in `ran`; judged by nobody. After an error
+    /// it is as it was.
+    #[inline]
+    fn run(&mut self, q: &Vector3<Real>, demand: Demand, ran: &mut Ran) -> Result<(), NotFinite> {
+        let Ran {
+            pose,
+            outcome,
+            nominal,
+            ft,
+            ..
+        } = ran;
+        let damping = if self.law.knows_singularities() {
             self.singularity.damping(pose.sigma_min)
         } else {
             0.0
         };
-        let (outcome, nominal) = match demand {
+        match demand {
             Demand::Run { authority, freedom } => {
-                self.stiff_hand = self.stiff_hand.sensed(&pose.p, &ft.hand.force);
+                let f_h = &ft.hand.force;
+                let seen = self.stiff_hand.sensed(&pose.p, f_h);
+                let of_hand = seen
+                    .as_ref()
+                    .map_or_else(Vector3::zeros, stiff_hand::damping);
                 let request = Request {
                     authority,
                     hold: freedom <= 0.0,
-                    damping: Vector3::repeat(damping) + self.stiff_hand.D(),
+                    damping: Vector3::repeat(damping) + of_hand,
                     speed: self.speed(freedom),
                 };
-                self.form.step(pose, q, &ft.hand.force, &request)
+                self.law.step(pose, q, f_h, &request, outcome, nominal)?;
+                self.stiff_hand.keep(seen.as_ref());
+                if freedom >= 1.0 {
+                    self.v_n = *self.law.velocity(outcome, nominal);
+                }
             }
             Demand::Rest => {
-                self.stiff_hand = self.stiff_hand.at_rest();
-                self.form.rest(pose, q)
+                self.law.rest(pose, q, outcome, nominal)?;
+                self.stiff_hand.rest();
+                self.v_n = *self.law.velocity(outcome, nominal);
             }
-        };
-        if !(outcome.is_finite() && self.ledger().G().is_finite()) {
-            return Err(NotFinite);
         }
         self.q = *q;
-        if !matches!(demand, Demand::Run { freedom, .. } if freedom < 1.0) {
-            self.v_n = self.form.velocity(&outcome, &nominal);
-        }
-        Ok(Ran {
-            pose: *pose,
-            outcome,
-            nominal,
-            slowed: demand != Demand::Rest && damping > 0.0,
-            stiff_hand: self.stiff_hand,
-            ft,
-            status: Status::of(demand),
-        })
+        ran.slowed = demand != Demand::Rest && damping > 0.0;
+        ran.stiff_hand = self.stiff_hand.known();
+        Ok(())
     }
 
     /// Speed in each of its coordinates that a nominal of this `freedom` may have, m/s or rad/s: it brakes in equal steps.
@@ -327,15 +363,17 @@ impl ArmLaw {
         }
     }
 
-    /// What the hand does, in the base frame.
-    fn sensed(&mut self, pose: &Pose, q: &Vector3<Real>, inputs: &ArmInputs) -> Conditioned {
-        let turn = self.frame.at(pose);
+    /// What the hand does, with the pose in `ran` and joint angles `q` (rad): into `ran` in the base frame. What the
+    /// sensor's conditioning is to remember of it is returned.
+    #[inline]
+    fn sensed(&self, q: &Vector3<Real>, inputs: &ArmInputs, ran: &mut Ran) -> Made {
+        let turn = self.frame.at(&ran.pose);
         let (force, torque) = if self.source == WRENCH {
             (inputs.ft_force, inputs.ft_torque)
         } else {
             (inputs.f_h, [0.0; 3])
         };
-        let ft = self.conditioner.step(&Sample {
+        let made = self.conditioner.sampled(&Sample {
             wrench: Wrench {
                 force: force.into(),
                 torque: torque.into(),
@@ -345,13 +383,14 @@ impl ArmLaw {
             valid: inputs.ft_valid != 0,
             tare: inputs.ft_tare != 0,
         });
-        Conditioned {
+        ran.ft = Conditioned {
             hand: Wrench {
-                force: turn.to_base(&ft.hand.force),
-                torque: turn.to_base(&ft.hand.torque),
+                force: turn.in_base(&made.hand.hand.force),
+                torque: turn.in_base(&made.hand.hand.torque),
             },
-            ..ft
-        }
+            ..made.hand
+        };
+        made
     }
 
     fn show(&self, ran: &Ran, outputs: &mut ArmOutputs) {
@@ -364,13 +403,13 @@ impl ArmLaw {
             ft,
             status,
         } = ran;
-        let absolute = |p: Vector3<Real>| self.origin().map_or(p, |p_0| p_0 + p).into();
+        let absolute = |p: &Vector3<Real>| self.origin().map_or(*p, |p_0| p_0 + p).into();
         outputs.tau_a = outcome.tau.into();
         outputs.tau_demand = outcome.tau_demand.into();
         outputs.f_a = outcome.f_a.into();
-        outputs.p = absolute(pose.p);
+        outputs.p = absolute(&pose.p);
         outputs.dp = outcome.dp.into();
-        outputs.p_n = absolute(outcome.p_n);
+        outputs.p_n = absolute(&outcome.p_n);
         outputs.dp_n = outcome.dp_n.into();
         outputs.e_nr = outcome.e_nr.into();
         outputs.sigma_min = pose.sigma_min;
@@ -383,9 +422,9 @@ impl ArmLaw {
         outputs.dq_n = nominal.dq_n.into();
         outputs.e_q = nominal.e_nr.into();
         outputs.M_n = core::array::from_fn(|i| nominal.M_n[(i / 3, i % 3)]);
-        outputs.stiff_hand_detected = stiff_hand.detected().into();
-        outputs.stiff_hand_D = stiff_hand.D().into();
-        outputs.stiff_hand_k_h = stiff_hand.k_h().into();
+        outputs.stiff_hand_detected = stiff_hand.detected.into();
+        outputs.stiff_hand_D = stiff_hand.D.into();
+        outputs.stiff_hand_k_h = stiff_hand.k_h.into();
         outputs.state = status.state.number();
         outputs.diagnostic = status.diagnostic.number();
         outputs.first_fault = status.first_fault.number();
@@ -417,6 +456,6 @@ impl ArmLaw {
 
     /// Energy stored and created, as of the last tick; the work is that at the joints.
     pub fn ledger(&self) -> &Ledger<3> {
-        self.form.ledger()
+        self.law.ledger()
     }
 }

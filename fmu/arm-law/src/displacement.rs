@@ -102,7 +102,7 @@ impl Origin {
         let (c_1, s_1) = (one.cos + d_1.cos, one.sin + d_1.sin);
         let d_rho = L1 * d_2.cos + handle_x * d_b.cos - handle_z * d_b.sin;
         let d_z = L1 * d_2.sin + handle_x * d_b.sin + handle_z * d_b.cos;
-        let pose = kinematics.turned([
+        let pose = kinematics.turned(&[
             (s_1, c_1),
             (two.sin + d_2.sin, two.cos + d_2.cos),
             (three.sin + d_3.sin, three.cos + d_3.cos),

@@ -39,6 +39,48 @@ pub struct Pose {
     pub sigma_min: Real,
     /// Link 3's axes in the base frame, as columns: turns a vector of link 3's frame into the base frame.
     pub R: Matrix3<Real>,
+    /// Sine and cosine of the joint angles.
+    pub sin_cos: SinCos,
+}
+
+impl Default for Pose {
+    /// Nowhere yet.
+    fn default() -> Self {
+        Self {
+            p: Vector3::zeros(),
+            J: Matrix3::zeros(),
+            sigma_min: 0.0,
+            R: Matrix3::zeros(),
+            sin_cos: Default::default(),
+        }
+    }
+}
+
+/// Sine and cosine of three angles: elementary functions are called once an angle.
+pub type SinCos = [(Real, Real); 3];
+
+/// Sine and cosine of the angles `q` (rad).
+#[inline]
+pub fn sin_cos(q: &Vector3<Real>) -> SinCos {
+    [
+        real::sin_cos(q[0]),
+        real::sin_cos(q[1]),
+        real::sin_cos(q[2]),
+    ]
+}
+
+/// The handle in the arm's plane, forward and up, m: from the shoulder's pitch axis and from the elbow's.
+struct InPlane {
+    x: Real,
+    z: Real,
+    r_x: Real,
+    r_z: Real,
+}
+
+/// Sine and cosine of β = q₂ + q₃.
+#[inline]
+pub(crate) fn beta(&[_, (s_2, c_2), (s_3, c_3)]: &SinCos) -> (Real, Real) {
+    (s_2 * c_3 + c_2 * s_3, c_2 * c_3 - s_2 * s_3)
 }
 
 impl Kinematics {
@@ -55,33 +97,21 @@ impl Kinematics {
     /// The singular values of J are |ϱ| (the handle on the yaw axis) and those of its pitch block, whose smaller one is
     /// |det|/σ_max with det = L₁(h_x sin q₃ + h_z cos q₃): no iteration, and exact where it matters, near zero.
     pub fn at(&self, q: &Vector3<Real>) -> Pose {
-        self.turned([q[0], q[1], q[2]].map(real::sin_cos))
+        self.turned(&sin_cos(q))
     }
 
     /// The handle at joint angles given by sine and cosine.
-    pub(crate) fn turned(&self, [(s_1, c_1), (s_2, c_2), (s_3, c_3)]: [(Real, Real); 3]) -> Pose {
-        let Self {
-            A1,
-            L1,
-            handle_x: h_x,
-            handle_z: h_z,
-        } = *self;
-        let (s_b, c_b) = (s_2 * c_3 + c_2 * s_3, c_2 * c_3 - s_2 * s_3);
-
-        let (r_x, r_z) = (h_x * c_b - h_z * s_b, h_x * s_b + h_z * c_b);
-        let (x, z) = (L1 * c_2 + r_x, L1 * s_2 + r_z);
-        let rho = A1 + x;
-        let det = L1 * (h_x * s_3 + h_z * c_3);
+    #[inline]
+    pub(crate) fn turned(&self, sin_cos: &SinCos) -> Pose {
+        let [(s_1, c_1), _, (s_3, c_3)] = *sin_cos;
+        let (s_b, c_b) = beta(sin_cos);
+        let InPlane { x, z, r_x, r_z } = self.in_plane(sin_cos);
+        let det = self.L1 * (self.handle_x * s_3 + self.handle_z * c_3);
         Pose {
-            p: Vector3::new(rho * c_1, rho * s_1, z),
-            #[rustfmt::skip]
-            J: Matrix3::new(
-                -rho * s_1, -z * c_1, -r_z * c_1,
-                 rho * c_1, -z * s_1, -r_z * s_1,
-                 0.0,        x,        r_x,
-            ),
+            p: self.p(sin_cos),
+            J: self.J(sin_cos),
             sigma_min: real::min(
-                real::abs(rho),
+                real::abs(self.A1 + x),
                 real::abs(det) / largest_singular_value([[-z, -r_z], [x, r_x]]),
             ),
             #[rustfmt::skip]
@@ -90,6 +120,50 @@ impl Kinematics {
                 s_1 * c_b,  c_1, -s_1 * s_b,
                 s_b,        0.0,  c_b,
             ),
+            sin_cos: *sin_cos,
+        }
+    }
+
+    /// Position of the handle, m.
+    #[inline]
+    pub(crate) fn p(&self, sin_cos: &SinCos) -> Vector3<Real> {
+        let (s_1, c_1) = sin_cos[0];
+        let InPlane { x, z, .. } = self.in_plane(sin_cos);
+        let rho = self.A1 + x;
+        Vector3::new(rho * c_1, rho * s_1, z)
+    }
+
+    /// J = ∂p/∂q, m/rad.
+    #[inline]
+    pub(crate) fn J(&self, sin_cos: &SinCos) -> Matrix3<Real> {
+        let (s_1, c_1) = sin_cos[0];
+        let InPlane { x, z, r_x, r_z } = self.in_plane(sin_cos);
+        let rho = self.A1 + x;
+        #[rustfmt::skip]
+        let J = Matrix3::new(
+            -rho * s_1, -z * c_1, -r_z * c_1,
+             rho * c_1, -z * s_1, -r_z * s_1,
+             0.0,        x,        r_x,
+        );
+        J
+    }
+
+    #[inline]
+    fn in_plane(&self, sin_cos: &SinCos) -> InPlane {
+        let [_, (s_2, c_2), _] = *sin_cos;
+        let Self {
+            L1,
+            handle_x: h_x,
+            handle_z: h_z,
+            ..
+        } = *self;
+        let (s_b, c_b) = beta(sin_cos);
+        let (r_x, r_z) = (h_x * c_b - h_z * s_b, h_x * s_b + h_z * c_b);
+        InPlane {
+            x: L1 * c_2 + r_x,
+            z: L1 * s_2 + r_z,
+            r_x,
+            r_z,
         }
     }
 

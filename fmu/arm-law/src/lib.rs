@@ -3,12 +3,13 @@
 //! | module | what |
 //! |---|---|
 //! | [`displacement`] | the handle's displacement from a pose, for single precision |
-//! | [`form`] | the coordinates in which the nominal lives, and the law in them |
+//! | [`handle`] | a tick of the law as it shows at the handle and at the joints |
 //! | [`joint_space`] | the law in joint space, with M_n(q) and C_n(q, dq) |
 //! | [`arm_law`] | the complete law: from what is sensed at a tick to the torques |
 //! | [`kinematics`] | position, Jacobian, smallest singular value and frame of link 3 |
 //! | [`limits`] | what the joints deliver of a torque: one common factor, or each joint clipped |
 //! | [`nominal`] | the nominal arm: M_n(q), C_n(q, dq), transport of the nominal velocity |
+//! | [`space`] | the coordinates in which the nominal lives, and the law in them |
 //! | [`singularity`] | the damping that slows before a singularity |
 //! | [`stiff_hand`] | the damping that ends the swing at a hand too stiff for the gains |
 //! | [`supervision`] | when the law may act: states, faults, their diagnostics |
@@ -28,7 +29,7 @@
 pub mod arm_law;
 pub mod choices;
 pub mod displacement;
-pub mod form;
+pub mod handle;
 pub mod joint_space;
 pub mod kinematics;
 pub mod limits;
@@ -36,6 +37,7 @@ pub mod nominal;
 pub mod parameters;
 pub mod signals;
 pub mod singularity;
+pub mod space;
 pub mod stiff_hand;
 pub mod supervision;
 pub mod task_space;

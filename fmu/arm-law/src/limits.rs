@@ -3,10 +3,11 @@
 use admittance::law::Felt;
 use admittance::listed::{Text, laws};
 use admittance::parameters::{check, limit};
+use admittance::tick::{Actuators, Delivered};
 use admittance::{Law, ParameterError, Real, real};
 use declaration::check::Expected;
 use declaration::range::POSITIVE;
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 
 /// How torques beyond ±tau_max are brought within.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -32,12 +33,12 @@ pub struct Limits {
     pub limiting: TorqueLimiting,
 }
 
-/// What the joints deliver.
+/// What the joints deliver of a torque.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Delivered {
+pub struct Limited {
     /// Torques, N·m, within ±tau_max.
     pub tau: Vector3<Real>,
-    /// Share of the force that this amounts to, in [0, 1]; 1 when clipped, which no share describes.
+    /// Factor of the force that this amounts to, in [0, 1]; 1 when clipped, which no factor describes.
     pub s: Real,
     /// Whether any joint delivers less than it was asked for.
     pub limited: bool,
@@ -78,8 +79,8 @@ impl Limits {
         Ok(())
     }
 
-    /// Whether these suit a law. Where the nominal feels what the robot gets, it feels one share of what the robot was to
-    /// get; no share describes joints that are clipped one by one.
+    /// Whether these suit a law. Where the nominal feels what the robot gets, it feels what the robot was to get times one
+    /// factor; no factor describes joints that are clipped one by one.
     ///
     /// # Errors
     /// Clipping under such a law.
@@ -98,22 +99,71 @@ impl Limits {
     }
 
     /// What is delivered of `tau` (N·m), which is finite.
-    pub fn deliver(&self, tau: &Vector3<Real>) -> Delivered {
+    #[inline]
+    pub fn deliver(&self, tau: &Vector3<Real>) -> Limited {
+        // tau_max/|tau| rounds to 1 or more exactly where |tau| ≤ tau_max.
+        if (0..3).all(|i| real::abs(tau[i]) <= self.tau_max[i]) {
+            return Limited {
+                tau: *tau,
+                s: 1.0,
+                limited: false,
+            };
+        }
+        self.limited(tau)
+    }
+
+    /// The same where a joint delivers less.
+    fn limited(&self, tau: &Vector3<Real>) -> Limited {
         let within = |tau: Real, tau_max: Real| tau.min(tau_max).max(-tau_max);
         let s = tau
             .zip_map(&self.tau_max, |tau, tau_max| tau_max / real::abs(tau))
             .fold(1.0, Real::min);
         match self.limiting {
-            TorqueLimiting::Scale => Delivered {
+            TorqueLimiting::Scale => Limited {
                 tau: (tau * s).zip_map(&self.tau_max, within), // the product's rounding may exceed tau_max
                 s,
                 limited: s < 1.0,
             },
-            TorqueLimiting::Clip => Delivered {
+            TorqueLimiting::Clip => Limited {
                 tau: tau.zip_map(&self.tau_max, within),
                 s: 1.0,
                 limited: s < 1.0,
             },
+        }
+    }
+}
+
+/// The joints as what brings a force at the handle to the robot: tau = Jᵀ f, within the limits.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct AtTheHandle<'a> {
+    pub limits: &'a Limits,
+    pub J: &'a Matrix3<Real>,
+}
+
+impl Actuators<3> for AtTheHandle<'_> {
+    #[inline]
+    fn deliver(&self, f: &Vector3<Real>) -> Delivered<3> {
+        let Limited { tau, s, limited } = self.limits.deliver(&self.J.tr_mul(f));
+        Delivered {
+            f: f * s,
+            tau,
+            limited,
+        }
+    }
+}
+
+/// The joints as what brings torques to the robot, within the limits.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct AtTheJoints<'a>(pub &'a Limits);
+
+impl Actuators<3> for AtTheJoints<'_> {
+    #[inline]
+    fn deliver(&self, asked: &Vector3<Real>) -> Delivered<3> {
+        let Limited { tau, .. } = self.0.deliver(asked);
+        Delivered {
+            f: tau,
+            tau,
+            limited: false, // the torques show it
         }
     }
 }

@@ -1,12 +1,12 @@
 //! What the law of the arm is built from: parameters of ArmController.fmu and of the C library, one row each.
 
 use crate::choices::{JOINT, SPACE, TORQUE_LIMITING};
-use crate::form::Space;
 use crate::joint_space::{self, JointGains, JointParameters};
 use crate::kinematics::Kinematics;
 use crate::limits::{Limits, TorqueLimiting};
 use crate::nominal::NominalArm;
 use crate::singularity::Singularity;
+use crate::space::Space;
 use crate::supervision;
 use crate::wrench::Sensor;
 use admittance::advice::{Advice, advise};
@@ -17,8 +17,8 @@ use admittance::parameters::{in_range, tunable_in_range};
 use admittance::{Bounds, Gains, Law, ParameterError, Reach, Real, Settings};
 use declaration::{Rows, Start};
 
-/// Parameters of the arm's law. Vectors are along x, y, z of the base frame, or by joint. C may hand over any bits:
-/// [`checked`](Self::checked) says what can be used.
+/// Parameters of the arm's law. Vectors are along x, y, z of the base frame, or by joint. Any bits may come
+/// from C: what cannot be used is refused by name.
 #[derive(Clone, Copy, Debug, PartialEq, Rows, Start)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[repr(C)]

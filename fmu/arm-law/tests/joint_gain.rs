@@ -30,7 +30,7 @@ fn pitch_block(m: f64, x: f64) -> Matrix2<f64> {
     };
     let arm = NominalArm {
         links: [link(0.5, 0.0), link(0.5, 0.1), link(m, x)],
-        rotor: Vector3::repeat(0.01),
+        rotor: [0.01; 3],
     };
     arm.check().unwrap();
     let M = arm.at(&Kinematics::default(), &Vector3::zeros()).M;

@@ -1,10 +1,11 @@
 //! The law in joint space, eq:obs_dyn and eq:dob_input: against the law of one axis, its own energy formula, and the continuous equations.
 #![allow(non_snake_case, reason = "the paper's symbols")]
 
-use admittance::ledger::Stored;
+use admittance::settling::Stored;
+use admittance::tick::{Coordinates, Tick as Shown};
 use admittance::{Admittance, Gains, Law, Ledger, Reach, Real, Settings};
 use arm_law::ParameterError;
-use arm_law::joint_space::{Committed, JointGains, JointRequest, Joints};
+use arm_law::joint_space::{Angles, JointGains, JointRequest, Joints};
 use arm_law::kinematics::Kinematics;
 use arm_law::nominal::{Link, NominalArm};
 use declaration::check::Expected;
@@ -35,7 +36,7 @@ struct Run {
 /// A tick of it.
 struct Tick {
     tau: Vector3<Real>,
-    law: Committed,
+    law: Shown<3>,
     H: Real,
 }
 
@@ -43,19 +44,26 @@ impl Run {
     fn new(settings: Settings, arm: NominalArm, gains: JointGains) -> Self {
         Self {
             joints: Joints::new(settings, arm, geometry(), gains).unwrap(),
-            ledger: Ledger::new(&settings, Reach::default()),
+            ledger: Ledger::new(&settings, &Reach::default()),
         }
     }
 
     /// One tick; the robot gets the share `s` of what is asked for.
     fn tick(&mut self, q: &Vector3<Real>, tau_h: &Vector3<Real>, s: Real) -> Tick {
         let settings = *self.joints.settings();
-        let sensed = self.joints.sense(q);
+        let sensed = self.joints.sense(&Angles::new(q));
         let H = sensed.stored(&settings);
-        let proposal = sensed.propose(tau_h, &JointRequest::default(), &settings);
-        let tau = proposal.tau(&settings) * s;
-        let law = self.joints.commit(proposal, &tau);
-        self.ledger = self.ledger.settled(H, q).opened(&tau, law.supplied);
+        let proposal = self
+            .joints
+            .propose(&sensed, tau_h, &JointRequest::default());
+        let tau = self.joints.f(&proposal) * s;
+        let driven = self.joints.driven(&proposal, &tau);
+        let mut law = Shown::at_rest(q);
+        self.joints.show(&proposal, &driven, &mut law);
+        let ended = self.ledger.close(H, q);
+        self.ledger
+            .book(&ended, &tau, self.joints.supplied(&proposal, &driven));
+        self.joints.commit(&proposal, &driven, &tau);
         Tick { tau, law, H }
     }
 }
@@ -84,7 +92,7 @@ fn gains() -> impl Strategy<Value = JointGains> {
 /// Rotors so light that the links, and with them C_n, decide.
 fn swinging() -> NominalArm {
     NominalArm {
-        rotor: Vector3::repeat(0.02),
+        rotor: [0.02; 3],
         ..NominalArm::default()
     }
 }
@@ -102,7 +110,7 @@ fn rotors(rotor: [Real; 3]) -> NominalArm {
     };
     NominalArm {
         links: [nothing; 3],
-        rotor: rotor.into(),
+        rotor,
     }
 }
 
@@ -225,9 +233,9 @@ proptest! {
         for _ in 0..50 {
             run.tick(&q, &tau_h, 1.0);
         }
-        let kept = run.joints.sense(&q).stored(&settings);
+        let kept = run.joints.sense(&Angles::new(&q)).stored(&settings);
         run.joints.tune(to).unwrap();
-        let taken_over = run.joints.sense(&q).stored(&settings);
+        let taken_over = run.joints.sense(&Angles::new(&q)).stored(&settings);
         prop_assert!(taken_over <= kept * (1.0 + 1e-14), "{kept} → {taken_over}"); // rounding
     }
 }
@@ -247,7 +255,7 @@ fn bounded_creates_no_energy_under_smooth_motion_while_limited() {
             let (q, tau_h) = motion(T * Real::from(k));
             let tick = run.tick(&q, &tau_h, 1.0);
             most = most.max(run.ledger.G());
-            limited += u32::from(tick.tau != tick.law.tau_demand);
+            limited += u32::from(tick.tau != tick.law.f_demand);
         }
         assert!(limited > 5_000, "{limited}");
         // Starting to move within a sample, Δv = 5 rad/s at most on each of three joints, costs k T Δv²/4 each.
@@ -383,7 +391,7 @@ fn a_gain_out_of_range_is_refused_with_joint_and_value_and_the_gains_stay() {
             name: "joint.K_P",
             axis: Some(2),
             value: 0.0,
-            expected: Expected::Text("a finite value greater than 0"),
+            expected: Expected::Text("a finite value, at least 1e-6"),
         })
     );
     assert_eq!(joints, before);

@@ -3,12 +3,12 @@
 
 use admittance::bounds::{Bounds, Interval};
 use admittance::{Law, Reach, Request, Settings};
+use arm_law::handle::HandleTick;
 use arm_law::joint_space::boxed::solved;
 use arm_law::joint_space::{JointGains, JointParameters, JointSpace, Nominal};
 use arm_law::kinematics::{Kinematics, Pose};
 use arm_law::limits::{Limits, TorqueLimiting};
 use arm_law::nominal::NominalArm;
-use arm_law::task_space::Outcome;
 use nalgebra::{Matrix3, Vector3};
 use proptest::prelude::*;
 
@@ -43,7 +43,7 @@ fn bounded(change: impl FnOnce(&mut JointParameters)) -> JointSpace {
 /// What a tick shows.
 struct Shown {
     pose: Pose,
-    outcome: Outcome,
+    outcome: HandleTick,
     nominal: Nominal,
 }
 
@@ -53,7 +53,10 @@ fn tick(law: &mut JointSpace, q: Vector3<f64>, f_h: [f64; 3], hold: bool) -> Sho
         hold,
         ..Request::default()
     };
-    let (outcome, nominal) = law.step(&pose, &q, &f_h.into(), &request);
+    let mut outcome = HandleTick::at_rest(&pose.p, false);
+    let mut nominal = Nominal::at(&q, Matrix3::zeros());
+    law.step(&pose, &q, &f_h.into(), &request, &mut outcome, &mut nominal)
+        .expect("finite");
     Shown {
         pose,
         outcome,
@@ -80,7 +83,7 @@ proptest! {
     ) {
         let mut law = bounded(|joint| {
             joint.gains.K = K;
-            joint.arm.rotor = Vector3::repeat(rotor);
+            joint.arm.rotor = [rotor; 3];
         });
         let (mut q, mut acted) = (Vector3::from(START), false);
         for (i, (f_h, way)) in pushes.into_iter().enumerate() {
@@ -259,7 +262,7 @@ fn gains_bounds_and_arms_that_cannot_be_are_refused_and_the_gains_stay() {
         new(Law::PassiveBounded, &parameters).is_err()
     };
     assert!(refused(|joint| joint.arm = NominalArm {
-        rotor: Vector3::zeros(),
+        rotor: [0.0; 3],
         ..NominalArm::default()
     }));
     assert!(refused(|joint| joint.gains.K = 0.0));

@@ -32,10 +32,7 @@ fn arms() -> impl Strategy<Value = NominalArm> {
         [link.clone(), link.clone(), link],
         [0.01..1.0, 0.01..1.0, 0.01..1.0_f64],
     )
-        .prop_map(|(links, rotor)| NominalArm {
-            links,
-            rotor: rotor.into(),
-        })
+        .prop_map(|(links, rotor)| NominalArm { links, rotor })
 }
 
 fn vectors(most: f64) -> impl Strategy<Value = Vector3<f64>> {
@@ -62,7 +59,7 @@ fn from_jacobians(arm: &NominalArm, q: &Vector3<f64>) -> Matrix3<f64> {
     let pitch_axis = yaw * Vector3::new(0.0, -1.0, 0.0);
     let axes = [Vector3::z(), pitch_axis, pitch_axis];
 
-    let mut M = Matrix3::from_diagonal(&arm.rotor);
+    let mut M = Matrix3::from_diagonal(&arm.rotor.into());
     for (i, link) in arm.links.iter().enumerate() {
         let centre = origins[i] + frames[i] * Vector3::new(link.x, 0.0, link.z);
         let (mut J_c, mut J_w) = (Matrix3::zeros(), Matrix3::zeros());
@@ -108,7 +105,7 @@ proptest! {
     fn M_is_symmetric_and_at_least_the_rotors(arm in arms(), q in vectors(3.2)) {
         let M = at(&arm, &q).M;
         prop_assert_eq!(M, M.transpose());
-        let least = (M - Matrix3::from_diagonal(&arm.rotor)).symmetric_eigenvalues().min();
+        let least = (M - Matrix3::from_diagonal(&arm.rotor.into())).symmetric_eigenvalues().min();
         prop_assert!(least > -1e-14 * M.amax(), "{least}"); // rounding of the eigenvalues
     }
 
@@ -188,7 +185,7 @@ fn free_motion(
 #[test]
 fn a_free_bodys_velocity_is_transported_along_its_motion() {
     let arm = NominalArm {
-        rotor: Vector3::repeat(0.02),
+        rotor: [0.02; 3],
         ..NominalArm::default()
     };
     let start = (

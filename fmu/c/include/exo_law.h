@@ -13,6 +13,40 @@
 #include <stddef.h>
 #include <stdint.h>
 
+// What a variable is in its struct.
+enum exo_kind
+#ifdef __cplusplus
+  : int32_t
+#endif // __cplusplus
+ {
+  // An `exo_real`.
+  EXO_KIND_REAL = 0,
+  // A `double` in both precisions.
+  EXO_KIND_DOUBLE = 1,
+  // An `int32_t`: a count, a choice or a Boolean.
+  EXO_KIND_INTEGER = 2,
+};
+#ifndef __cplusplus
+typedef int32_t exo_kind;
+#endif // __cplusplus
+
+// In which struct a variable lies.
+enum exo_role
+#ifdef __cplusplus
+  : int32_t
+#endif // __cplusplus
+ {
+  // In the parameters.
+  EXO_ROLE_PARAMETER = 0,
+  // In the inputs.
+  EXO_ROLE_INPUT = 1,
+  // In the outputs.
+  EXO_ROLE_OUTPUT = 2,
+};
+#ifndef __cplusplus
+typedef int32_t exo_role;
+#endif // __cplusplus
+
 // What a call returns; everything but `Ok` changed nothing.
 enum exo_status
 #ifdef __cplusplus
@@ -31,246 +65,315 @@ enum exo_status
   EXO_STATUS_REFUSED = 4,
   // The tick's result is not finite: numbers overflow.
   EXO_STATUS_NOT_FINITE = 5,
+  // There is no variable of this number: it is beyond the last.
+  EXO_STATUS_NO_SUCH_VARIABLE = 6,
 };
 #ifndef __cplusplus
 typedef int32_t exo_status;
 #endif // __cplusplus
 
 #if !defined(EXO_LAW_F32)
-// The law's number: double precision, or single precision in the library `exo_law_f32`.
+// The law's number: double precision, or single precision in the packages and libraries named f32.
 typedef double exo_real;
 #endif
 
 #if defined(EXO_LAW_F32)
-// The law's number: double precision, or single precision in the library `exo_law_f32`.
+// The law's number: double precision, or single precision in the packages and libraries named f32.
 typedef float exo_real;
 #endif
 
-// Gains of the arm along x, y, z of the base frame.
-typedef struct exo_arm_gains {
-  // Nominal mass, kg, > 0.
-  exo_real Lambda_n[3];
-  // Nominal damping, N·s/m, ≥ 0.
-  exo_real D_n[3];
-  // Control gain, N·s/m, > 0.
-  exo_real K[3];
-  // Ratio of the coupling's spring to its damper, 1/s, > 0.
-  exo_real K_P[3];
-  // Largest force on the robot under `passive_bounded`, N, > 0; the other laws live on the torque limits alone.
-  exo_real f_max[3];
-} exo_arm_gains;
-
-// The lengths that place the handle, m.
+// The lengths that place the handle. The start values are the exoskeleton arm's.
 typedef struct exo_arm_kinematics {
-  // From the yaw axis forward to the shoulder's pitch axis.
-  exo_real A1;
-  // From the shoulder's pitch axis to the elbow's.
-  exo_real L1;
-  // Handle in link 3's frame: from the elbow's axis along the link.
-  exo_real handle_x;
+  // Length from the yaw axis forward to the shoulder's pitch axis.
+  exo_real A1; // m
+  // Length from the shoulder's pitch axis to the elbow's.
+  exo_real L1; // m
+  // Handle in link 3's frame: from the elbow's axis along the link, L2 of the arm.
+  exo_real handle_x; // m
   // Handle in link 3's frame: across the link, upwards when it is level.
-  exo_real handle_z;
+  exo_real handle_z; // m
 } exo_arm_kinematics;
 
-// Slowing before a singularity.
-typedef struct exo_arm_singularity {
-  // sigma_min below which the nominal is damped more, m/rad; 0 = off.
-  exo_real sigma_slow;
-  // What scales the damping, N·s/m.
-  exo_real D;
-} exo_arm_singularity;
+// Everything beyond the sensor that the hand does not carry: handle, adapter, half of the sensor. At the start there is none,
+// on an arm that stands upright.
+typedef struct exo_arm_tool {
+  // Mass of the tool behind the sensor, whose weight is taken off; 0 = none.
+  exo_real mass; // kg
+  // Centre of gravity of the tool from the sensor's origin; sensor frame.
+  exo_real cog[3]; // m
+  // Acceleration of gravity; base frame.
+  exo_real gravity[3]; // m/s2
+} exo_arm_tool;
 
-// Damping for a hand too stiff for the gains.
-typedef struct exo_arm_stiff_hand {
-  // Whether anybody watches.
-  int32_t active;
-  // Damping that comes on top of D_n, N·s/m.
-  exo_real D_max;
-  // Lower edge of the band, Hz.
-  exo_real f_low;
-  // Upper edge of the band, Hz.
-  exo_real f_high;
-  // Amplitude of f_h in the band from which on a swing counts, N.
-  exo_real f_min;
-  // Factor by which a half swing has to be stronger than the one a period before, > 1.
-  exo_real growth;
-  // Time in which D goes from 0 to D_max, s.
-  exo_real attack;
-  // Time without a swing after which the damping is given back, s.
-  exo_real quiet;
-  // Time in which D goes from D_max to 0, s.
-  exo_real release;
-} exo_arm_stiff_hand;
-
-// The hand's force sensor: what it is like and what is made of it.
-typedef struct exo_arm_force_sensor {
-  // What is read: 1 the force f_h, 2 the wrench of a six-axis sensor.
-  int32_t source;
-  // Frame of f_h: 1 base, 2 sensor (link 3's).
-  int32_t frame;
-  // Samples without a change that are a fault; 0 = off.
+// The checks. At the start all are off but for NaN and infinity.
+typedef struct exo_arm_sensor_checks {
+  // Absolute value at which a force component is over range; 0 = off.
+  exo_real range_force; // N
+  // Absolute value at which a moment component is over range; 0 = off.
+  exo_real range_torque; // N.m
+  // Rate at which a force component is a fault; 0 = off.
+  exo_real rate_force; // N/s
+  // Rate at which a moment component is a fault; 0 = off.
+  exo_real rate_torque; // N.m/s
+  // Repetitions of a reading, bit for bit, after which the sensor is stuck; 0 = off. For sensors with noise that are
+  // read at every tick.
   int32_t stuck_samples;
-  // Samples of nothing but zeros that are a fault; 0 = off.
+  // Readings of exactly 0 on all axes after which the sensor has dropped out; 0 = off. For sensors with noise.
   int32_t dropout_samples;
-  // Mounting of a six-axis sensor on link 3: roll, pitch, yaw, rad.
-  exo_real mount[3];
-  // The handle from the sensor's origin, sensor frame, m.
-  exo_real handle[3];
-  // Mass of the tool behind the sensor, kg.
-  exo_real mass;
-  // Its centre of gravity, sensor frame, m.
-  exo_real cog[3];
-  // Gravity, base frame, m/s².
-  exo_real gravity[3];
-  // Width of the deadband, N; 0 = off.
-  exo_real deadband;
-  // Corner frequency of the low pass, Hz; 0 = off.
-  exo_real cutoff;
-  // Largest force that the sensor can read, N; 0 = not checked.
-  exo_real range_force;
-  // Largest moment that it can read, N·m; 0 = not checked.
-  exo_real range_torque;
-  // Largest rate of change of a force, N/s; 0 = not checked.
-  exo_real rate_force;
-  // Largest rate of change of a moment, N·m/s; 0 = not checked.
-  exo_real rate_torque;
-  // Time without a fault after which it is trusted again, s.
-  exo_real recovery_time;
-  // Time that a tare takes, s.
-  exo_real tare_time;
-  // Largest motion of a joint during a tare, rad.
-  exo_real tare_motion;
-  // Largest spread of a force during a tare, N.
-  exo_real tare_spread_force;
-  // Largest spread of a moment during a tare, N·m.
-  exo_real tare_spread_torque;
-  // Largest force that a tare takes for a bias, N.
-  exo_real tare_max_force;
-  // Largest moment that a tare takes for a bias, N·m.
-  exo_real tare_max_torque;
+  // Time for which the signal must be sound before a fault is over.
+  exo_real recovery_time; // s
+} exo_arm_sensor_checks;
+
+// What a tare asks for. The start values: half a second; the least count of a 14-bit encoder three times over; a hand's tremor
+// does not pass.
+typedef struct exo_arm_tare {
+  // Time for which a tare takes samples.
+  exo_real time; // s
+  // Motion of a joint beyond which a tare fails.
+  exo_real motion; // rad
+  // Standard deviation of a force component beyond which a tare fails; 0 = any.
+  exo_real spread_force; // N
+  // Standard deviation of a moment component beyond which a tare fails; 0 = any.
+  exo_real spread_torque; // N.m
+  // Force component of the bias beyond which a tare fails: somebody leans on the handle; 0 = any.
+  exo_real max_force; // N
+  // Moment component of the bias beyond which a tare fails: somebody leans on the handle; 0 = any.
+  exo_real max_torque; // N.m
+} exo_arm_tare;
+
+// What the sensor is like and what is made of its reading: the parameters `ft.*`. At the start a force in the base frame, as
+// it is.
+typedef struct exo_arm_force_sensor {
+  // Where the force of the human is read.
+  int32_t source;
+  // Frame in which f_h is given.
+  int32_t frame;
+  // Orientation of the sensor in link 3's frame under ft.source 2: roll, pitch, yaw, turns about link 3's fixed axes
+  // x, then y, then z.
+  exo_real mount[3]; // rad
+  // Lever arm: the handle from the sensor's origin; sensor frame.
+  exo_real handle[3]; // m
+  // What hangs on it.
+  struct exo_arm_tool tool;
+  // Length by which every force is shortened, and below which it is 0; 0 = off.
+  exo_real deadband; // N
+  // Corner frequency of a first-order low pass on the force; it costs phase; 0 = off.
+  exo_real cutoff; // Hz
+  // How it may fail.
+  struct exo_arm_sensor_checks checks;
+  // How its bias is found.
+  struct exo_arm_tare tare;
 } exo_arm_force_sensor;
 
-// Times and thresholds of the supervision.
+// When and how much the nominal is slowed. The start values: two thirds of the least sigma_min that the paper's experiments
+// come to (0.18 m/rad), and a damping that takes the speed from the nominal within the few centimetres that are left.
+typedef struct exo_arm_singularity {
+  // sigma_min below which the nominal is damped more; 0 = off.
+  exo_real sigma_slow; // m/rad
+  // Slowing: below sigma_slow D_n is raised by singularity.D*((sigma_slow/sigma_min)^2 - 1), at most by 15
+  // singularity.D.
+  exo_real D; // N.s/m
+} exo_arm_singularity;
+
+// The parameters `stiff_hand.*`, the same on all axes. At the start nobody watches. The band holds the unstable swings of the
+// arm from 300 to 10000 N/m (1.1 to 7 Hz) and none of the paper's motions (0.25 to 0.8 Hz); D_max holds a hand of 2762 N/m
+// on the arm's x axis with the paper's gains.
+typedef struct exo_arm_stiff_hand {
+  // Whether a hand too stiff for the gains is looked for and answered with damping.
+  int32_t active;
+  // Damping on top of D_n while a stiff hand is detected.
+  exo_real D_max; // N.s/m
+  // Lower edge of the band in which a stiff hand is looked for, above the motions that the operator means.
+  exo_real f_low; // Hz
+  // Upper edge of that band, above stiff_hand.f_low and at most 1/(8*T).
+  exo_real f_high; // Hz
+  // Amplitude of f_h in the band from which on a swing counts.
+  exo_real f_min; // N
+  // Factor, greater than 1, by which f_h has to grow from one period of a swing to the next.
+  exo_real growth;
+  // Time in which the damping rises to stiff_hand.D_max.
+  exo_real attack; // s
+  // Time without a swing after which the damping is given back.
+  exo_real quiet; // s
+  // Time in which it is given back.
+  exo_real release; // s
+} exo_arm_stiff_hand;
+
+// What can be set. Times are rounded to whole ticks. The start values: half a second to engage and to stop, a heartbeat of
+// 10 Hz or more, no hold but by request.
 typedef struct exo_arm_supervision {
-  // Whether there is any; without it `engage` and `hold` alone decide.
-  int32_t supervision;
-  // For how long sensors and heartbeat must have been good before the controller is ready, s.
-  exo_real init_time;
-  // Duration over which the authority rises from 0 to 1, s.
-  exo_real engage_time;
-  // Duration over which it falls to 0, s.
-  exo_real soft_stop_time;
-  // Time within which the heartbeat must change, s; 0 = it is not watched.
-  exo_real heartbeat_timeout;
-  // Magnitude of f_h below which the hand is at rest, N; 0 = the controller never holds by itself.
-  exo_real hold_enter;
-  // Magnitude of f_h above which it no longer is, N.
-  exo_real hold_leave;
-  // For how long f_h must have been below hold_enter, s.
-  exo_real hold_time;
-  // Duration over which a moving nominal is brought to rest, s.
-  exo_real hold_brake;
-  // For how long limits may act before they are reported, s; 0 = they are not.
-  exo_real saturation_time;
+  // For how long sensors and heartbeat must have been good before the controller is ready.
+  exo_real init_time; // s
+  // Time in which the authority rises from 0 to 1; one tick at least.
+  exo_real engage_time; // s
+  // Time in which the authority falls to 0 in a soft stop; one tick at least.
+  exo_real soft_stop_time; // s
+  // Time within which heartbeat must change; 0 = it is not watched.
+  exo_real heartbeat_timeout; // s
+  // Magnitude of f_h below which the hand is at rest and the controller holds by itself; 0 = it never does.
+  exo_real hold_enter; // N
+  // Magnitude of f_h above which the hand is no longer at rest; not below hold_enter.
+  exo_real hold_leave; // N
+  // For how long f_h must have been below hold_enter before the hand is at rest.
+  exo_real hold_time; // s
+  // Time in which supervision brings a moving nominal to rest; one tick at least.
+  exo_real hold_brake; // s
+  // For how long limits may act before diagnostic reports it; 0 = it does not.
+  exo_real saturation_time; // s
 } exo_arm_supervision;
 
-// Gains of the joints, used in joint space.
-typedef struct exo_arm_joint_gains {
-  // Nominal damping of each joint, N·m·s/rad, ≥ 0.
-  exo_real D_n[3];
-  // Control gain, N·m·s/rad, > 0.
-  exo_real K;
-  // Ratio of each joint's coupling spring to its damper, 1/s, > 0.
-  exo_real K_P[3];
-} exo_arm_joint_gains;
-
-// Limits of the nominal in joint space.
+// The parameters `joint.*`: what the form in joint space has of its own. The start values are about the task-space gains
+// (1000 N·s/m, 20 N·s/m) at the start pose: seen from the handle, D_n/(JJᵀ)_zz is 15 N·s/m and K/(JJᵀ)_zz 1500 N·s/m. The
+// unit damper alpha is then 3.7 N·s/m, so a load sinks faster than at the handle.
 typedef struct exo_arm_joint {
-  // Largest speed of each nominal joint, rad/s; 0 = no limit.
-  exo_real dq_n_max[3];
-  // Whether the nominal keeps to q_n_min … q_n_max.
+  // Nominal damping of each joint in joint space (eq:nom_dyn).
+  exo_real D_n[3]; // N.m.s/rad
+  // Control gain in joint space, 1/epsilon of the paper (eq:dob_input); one number for all joints, because with
+  // different ones a free robot can be unstable.
+  exo_real K; // N.m.s/rad
+  // Ratio of each joint's coupling spring to its damper in joint space (eq:dob_input).
+  exo_real K_P[3]; // 1/s
+  // Largest speed of the nominal's joints in joint space; 0 = no limit.
+  exo_real dq_n_max[3]; // rad/s
+  // Whether the nominal keeps within joint.q_n_min and joint.q_n_max in joint space.
   int32_t q_n_box;
-  // Least angle of each nominal joint, rad.
-  exo_real q_n_min[3];
-  // Largest angle of each nominal joint, rad.
-  exo_real q_n_max[3];
+  // Least angles of the nominal's joints.
+  exo_real q_n_min[3]; // rad
+  // Largest angles of the nominal's joints.
+  exo_real q_n_max[3]; // rad
 } exo_arm_joint;
 
-// The nominal arm of the joint-space form, by link; moments of inertia about the centre of gravity.
+// A link of the nominal arm, in the link's frame: origin on its joint's axis, x along it, z up when it is level.
+typedef struct exo_arm_link {
+  // Mass of each link of the nominal arm, which has the lengths kinematics.* and no weight.
+  exo_real m; // kg
+  // Centre of mass of each nominal link along it, from its joint's axis.
+  exo_real x; // m
+  // Centre of mass of each nominal link across it, upwards when it is level.
+  exo_real z; // m
+  // Moment of inertia of each nominal link about x through its centre of mass.
+  exo_real I_xx; // kg.m2
+  // Moment of inertia of each nominal link about y through its centre of mass.
+  exo_real I_yy; // kg.m2
+  // Moment of inertia of each nominal link about z through its centre of mass.
+  exo_real I_zz; // kg.m2
+  // Element xz of each nominal link's inertia matrix, the negative product of inertia.
+  exo_real I_xz; // kg.m2
+} exo_arm_link;
+
+// What the nominal arm is made of. Its lengths are those of the kinematics. The start values: half the mass of the
+// exoskeleton arm's links and 0.4 kg·m² at each joint. At the start pose M_n is 0.53 and [0.68 0.06; 0.06 0.46] kg·m²; the
+// robot's, with its reflected rotors, is 3 to 8 kg·m².
 typedef struct exo_arm_nominal {
-  // Mass, kg.
-  exo_real m[3];
-  // Centre of gravity along the link, m.
-  exo_real x[3];
-  // Centre of gravity across the link, m.
-  exo_real z[3];
-  // kg·m².
-  exo_real I_xx[3];
-  // kg·m².
-  exo_real I_yy[3];
-  // kg·m².
-  exo_real I_zz[3];
-  // kg·m².
-  exo_real I_xz[3];
-  // Inertia of each joint about its own axis, kg·m², > 0.
-  exo_real rotor[3];
+  // The three links.
+  struct exo_arm_link links[3];
+  // Inertia of each nominal joint about its own axis, as the joint feels it.
+  exo_real rotor[3]; // kg.m2
 } exo_arm_nominal;
 
-// Parameters of the arm's law. Vectors are along x, y, z of the base frame, or by joint.
+// Parameters of the arm's law. Vectors are along x, y, z of the base frame, or by joint. Any bits may come
+// from C: what cannot be used is refused by name.
 typedef struct exo_arm_parameters {
-  // 1 standard, 2 passive, 3 passive_applied, 4 passive_bounded.
+  // Admittance law.
   int32_t law;
-  // 0 or 1: samples after which the torques reach the robot.
-  int32_t delay;
-  // Torques beyond tau_max: 1 scale all by one factor, 2 clip each; clip under `standard` and `passive` only.
+  // Nominal mass along x, y, z (eq:nom_dyn in task space).
+  exo_real Lambda_n[3]; // kg
+  // Nominal damping along x, y, z (eq:nom_dyn in task space).
+  exo_real D_n[3]; // N.s/m
+  // Control gain along x, y, z, 1/epsilon of the paper (eq:dob_input).
+  exo_real K[3]; // N.s/m
+  // Ratio of the coupling's spring to its damper along x, y, z (eq:dob_input).
+  exo_real K_P[3]; // 1/s
+  // Damper between y and the reaction on the nominal; 1 is the unit damper that the paper hides in eq:obs_dyn.
+  exo_real alpha; // N.s/m
+  // Largest force of the controller along x, y, z and bound of the coupling spring's force, under passive_bounded;
+  // the other laws have no limit but tau_max.
+  exo_real f_max[3]; // N
+  // Largest absolute value of tau_a.
+  exo_real tau_max[3]; // N.m
+  // How joint torques beyond tau_max are brought within; clip under the laws standard and passive only.
   int32_t torque_limiting;
-  // Whether the nominal keeps to p_n_min … p_n_max.
+  // Sample period.
+  exo_real T; // s
+  // Samples by which the importer's wiring delays tau_a, its first value being 0; it changes no torque, only in
+  // which sample the ledger counts a torque's work.
+  int32_t delay;
+  // Energy with which the tank starts and above which it does not fill.
+  exo_real E_0; // J
+  // Largest speed of the joints: the energy budget covers every motion within it.
+  exo_real dq_max[3]; // rad/s
+  // Largest acceleration of the joints: the energy budget covers every motion within it.
+  exo_real ddq_max[3]; // rad/s2
+  // Corner frequency of a first-order low pass on dp; 0 = off.
+  exo_real dp_cutoff; // Hz
+  // Lightest effective mass that the robot shows along an axis, for gain_warning only.
+  exo_real M_min; // kg
+  // Time in which changed gains come into force, on a straight line; 0 = at once.
+  exo_real tuning_time; // s
+  // Largest speed of the nominal along x, y, z; 0 = no limit.
+  exo_real dp_n_max[3]; // m/s
+  // Whether the nominal keeps within p_n_min and p_n_max.
   int32_t p_n_box;
-  // The gains to begin with.
-  struct exo_arm_gains gains;
-  // Damper of the reaction on the nominal, N·s/m, ≥ 0; 1 is the paper.
-  exo_real alpha;
-  // Sample period, s.
-  exo_real T;
-  // Largest torque of each joint, N·m, > 0.
-  exo_real tau_max[3];
-  // Largest rate of change of each joint's torque, N·m/s; 0 = no limit.
-  exo_real tau_rate_max[3];
-  // Largest speed of each joint for which passivity is promised, rad/s.
-  exo_real dq_max[3];
-  // Largest acceleration of each joint for which passivity is promised, rad/s².
-  exo_real ddq_max[3];
-  // Corner frequency of a low pass on the velocity, Hz; 0 = off.
-  exo_real dp_cutoff;
-  // Energy with which the tank starts and above which it does not fill, J.
-  exo_real E_0;
-  // Time that changed gains take to come into force, s.
-  exo_real tuning_time;
-  // Largest speed of the nominal along each axis, m/s; 0 = no limit.
-  exo_real dp_n_max[3];
-  // Least position of the nominal, base frame, m.
-  exo_real p_n_min[3];
-  // Largest position of the nominal, base frame, m.
-  exo_real p_n_max[3];
+  // Least position of the nominal handle along x, y, z; base frame.
+  exo_real p_n_min[3]; // m
+  // Largest position of the nominal handle along x, y, z; base frame.
+  exo_real p_n_max[3]; // m
+  // Largest rate of change of tau_a while the controller is in the loop; 0 = no limit.
+  exo_real tau_rate_max[3]; // N.m/s
   // Where the handle is.
   struct exo_arm_kinematics kinematics;
+  // The hand's force sensor.
+  struct exo_arm_force_sensor ft;
   // Slowing before a singularity.
   struct exo_arm_singularity singularity;
   // Damping for a hand too stiff for the gains.
   struct exo_arm_stiff_hand stiff_hand;
-  // The hand's force sensor.
-  struct exo_arm_force_sensor ft;
-  // When the law may act.
-  struct exo_arm_supervision supervision;
-  // The nominal: 1 task (a mass at the handle), 2 joint (a light arm).
+  // Whether supervision decides when the law may act; if not, engage alone does.
+  int32_t supervision;
+  // Its times and thresholds.
+  struct exo_arm_supervision supervisor;
+  // Coordinates in which the nominal lives.
   int32_t space;
-  // Gains of the joint-space form to begin with.
-  struct exo_arm_joint_gains joint_gains;
-  // Its limits.
+  // The form in joint space.
   struct exo_arm_joint joint;
   // Its nominal arm.
   struct exo_arm_nominal nominal;
 } exo_arm_parameters;
+
+// What is sensed and asked for at a tick.
+typedef struct exo_arm_inputs {
+  // Sensed joint angles: yaw about z, shoulder pitch and elbow pitch about -y, so that positive pitch lifts.
+  double q[3]; // rad
+  // Sensed force of the human on the handle, in the frame that ft.frame says, under ft.source 1. It may be NaN,
+  // which ft.fault names.
+  exo_real f_h[3]; // N
+  // Whether the controller is in the loop. It engages at the first tick at which this is true, with p_n = p and dp_n
+  // = 0; while it is false tau_a is 0.
+  int32_t engage;
+  // Whether the nominal stays where it is: the coupling then carries any load within f_max without drift.
+  int32_t hold;
+  // Raw force that acts on the sensor's tool, in the sensor's frame, under ft.source 2. It may be NaN, which
+  // ft.fault names.
+  exo_real ft_force[3]; // N
+  // Raw moment that acts on the sensor's tool about the sensor's origin, in the sensor's frame, under ft.source 2.
+  // It may be NaN, which ft.fault names.
+  exo_real ft_torque[3]; // N.m
+  // Request for a tare: its change to true starts one, with nobody touching the handle and the arm at rest.
+  int32_t ft_tare;
+  // Whether the controller may run at all; only with supervision.
+  int32_t enable;
+  // Its rising edge acknowledges a fault whose cause is gone; only with supervision.
+  int32_t acknowledge;
+  // Whether the emergency stop is pressed: no torque, at once; only with supervision.
+  int32_t emergency_stop;
+  // A counter that must change within heartbeat_timeout, by whatever step; only with supervision.
+  int32_t heartbeat;
+  // The sensor's own word on the force; if false the law sees no force (ft.fault) and, with supervision, stops
+  // softly.
+  int32_t ft_valid;
+  // Whether q can be trusted; if not there is no torque, at once; only with supervision.
+  int32_t encoder_valid;
+} exo_arm_inputs;
 
 // Memory of an arm's law. Its content is the library's; it may be copied as bytes, to keep and restore a state.
 typedef struct exo_arm_state {
@@ -289,208 +392,200 @@ typedef struct exo_refusal {
   exo_real value;
 } exo_refusal;
 
-// What supervision is told at a tick; without it nobody listens.
-typedef struct exo_arm_signals {
-  // Whether the controller may run at all.
-  int32_t enable;
-  // Its rising edge acknowledges a fault.
-  int32_t acknowledge;
-  // Whether the emergency stop is pressed.
-  int32_t emergency_stop;
-  // A counter that changes as long as its sender lives.
-  int32_t heartbeat;
-  // Whether the joint angles can be trusted.
-  int32_t encoder_valid;
-} exo_arm_signals;
-
-// What is sensed and asked for at a tick.
-typedef struct exo_arm_inputs {
-  // Joint angles, rad: yaw about z, shoulder pitch and elbow pitch about −y, so that positive pitch lifts.
-  double q[3];
-  // Force of the human on the handle, N, in the frame that ft.frame says; with ft.source = 1.
-  exo_real f_h[3];
-  // Force that a six-axis sensor reads, N, in its frame; with ft.source = 2.
-  exo_real ft_force[3];
-  // Moment that it reads about its origin, N·m.
-  exo_real ft_torque[3];
-  // The sensor's own word: 0 = its reading is not to be used.
-  int32_t ft_valid;
-  // Whether a tare of the sensor is requested; its change to true starts one.
-  int32_t ft_tare;
-  // Whether the law is to be in the loop.
-  int32_t engage;
-  // Whether the nominal is to stay where it is.
-  int32_t hold;
-  // What supervision is told.
-  struct exo_arm_signals signals;
-} exo_arm_inputs;
-
 // What came of a tick; every value is the one at t_k, vectors at the handle in the base frame.
 typedef struct exo_arm_outputs {
-  // Torques on the joints, N·m, positive like q, to be held until the next tick.
-  exo_real tau_a[3];
-  // Torques before any limit, N·m.
-  exo_real tau_demand[3];
-  // Force on the robot at the handle that tau_a amounts to, N.
-  exo_real f_a[3];
-  // Position of the handle, m.
-  exo_real p[3];
-  // Velocity of the handle as the law used it, m/s.
-  exo_real dp[3];
-  // Nominal position, m.
-  exo_real p_n[3];
-  // Nominal velocity, m/s.
-  exo_real dp_n[3];
-  // p_n − p, m; in single precision more exact than their difference.
-  exo_real e_nr[3];
-  // The hand's force on the handle as the law uses it, N.
-  exo_real ft_f_h[3];
-  // The hand's moment about the handle, N·m.
-  exo_real ft_moment[3];
-  // Damping that the stiff-hand detector adds, N·s/m.
-  exo_real stiff_hand_D[3];
-  // Nominal angles, rad; in task space the sensed ones.
-  exo_real q_n[3];
-  // Nominal joint velocities, rad/s; in task space 0.
-  exo_real dq_n[3];
-  // q_n − q, rad; in task space 0.
-  exo_real e_q[3];
-  // Share of the law's torques that supervision allows, in [0, 1].
-  exo_real authority;
-  // Smallest singular value of the Jacobian, m/rad.
-  exo_real sigma_min;
-  // Energy stored, J.
-  exo_real H;
-  // Energy created since the start, J; negative: dissipated.
-  exo_real G;
-  // What the energy tank holds, J.
-  exo_real tank;
-  // Share of the torques that the energy budget left, in [0, 1].
-  exo_real share;
-  // Whether a limit leaves less than tau_demand.
+  // Control torques on the joints, positive like q, held until the next tick (J' f_a, limited).
+  exo_real tau_a[3]; // N.m
+  // Position of the handle by the controller's kinematics; base frame.
+  exo_real p[3]; // m
+  // Nominal position of the handle (eq:obs_dyn); base frame.
+  exo_real p_n[3]; // m
+  // Nominal velocity of the handle (eq:obs_dyn); base frame.
+  exo_real dp_n[3]; // m/s
+  // Position error p_n - p, after the slip of passive_bounded; base frame.
+  exo_real e_nr[3]; // m
+  // Force on the robot at the handle that tau_a amounts to (eq:dob_input, limited); base frame.
+  exo_real f_a[3]; // N
+  // Whether f_max (under passive_bounded) or tau_max leaves less than tau_demand.
   int32_t saturated;
-  // Whether a limit of the nominal, or hold, kept it back.
-  int32_t held;
-  // Whether the joints moved faster than dq_max and ddq_max allow.
-  int32_t outside_bounds;
-  // Whether the law is in the loop.
+  // Smallest singular value of the handle's Jacobian; 0 at a singularity.
+  exo_real sigma_min; // m/rad
+  // Energy stored in nominal mass and coupling spring; 0 if alpha = 0, for which it is not defined.
+  exo_real H; // J
+  // Energy that the sampled law has created so far, counted with the work of tau_a at the joints; negative:
+  // dissipated; 0 if alpha = 0.
+  exo_real G; // J
+  // Energy tank: energy.E_0 less what was created, refilled by dissipation up to energy.E_0; 0 if alpha = 0.
+  exo_real tank; // J
+  // Velocity of the handle as the law uses it: backward difference of p, 0 at the first tick; base frame.
+  exo_real dp[3]; // m/s
+  // Joint torques J' K y before any limit (eq:dob_input).
+  exo_real tau_demand[3]; // N.m
+  // Whether the controller was in the loop at this tick.
   int32_t engaged;
-  // Whether the nominal is slowed before a singularity.
+  // Whether the joints' motion since the last tick exceeded dq_max or ddq_max, to which the passivity argument is
+  // restricted.
+  int32_t outside_bounds;
+  // Whether sigma_min lies below singularity.sigma_slow, so that the nominal is damped more.
   int32_t slowed;
-  // Whether a stiff hand has been seen and has not been quiet since.
-  int32_t stiff_hand_detected;
-  // What is wrong with the force sensor, 0 nothing: the numbers of the FMU's ft.fault.
-  int32_t ft_fault;
-  // How far a tare has come: the numbers of the FMU's ft.tare_state.
-  int32_t ft_tare_state;
-  // Why a tare failed, 0 if it did not: the numbers of the FMU's ft.tare_failure.
-  int32_t ft_tare_failure;
-  // State of the supervision: the numbers of the FMU.
-  int32_t state;
-  // What it reports, 0 nothing: the numbers of the FMU.
-  int32_t diagnostic;
-  // The first fault since the last acknowledgement, 0 none.
-  int32_t first_fault;
-  // Whether the tank is below zero after a motion outside the bounds.
+  // Whether hold, dp_n_max or the position box kept the nominal back at this tick.
+  int32_t held;
+  // Share of the torques that the energy budget left at this tick; 1 unless something is wrong.
+  exo_real share;
+  // Whether the tank is below 0: a motion beyond dq_max and ddq_max cost more than it held; no torque until it is
+  // repaid.
   int32_t debt;
+  // Whether on any axis a stiff hand has made a swing grow and has not been quiet since.
+  int32_t stiff_hand_detected;
+  // Damping on top of D_n for a stiff hand; base frame.
+  exo_real stiff_hand_D[3]; // N.s/m
+  // Stiffness of the hand in the last swing that counted, 0 before the first; base frame.
+  exo_real stiff_hand_k_h[3]; // N/m
+  // Force of the human on the handle as the law uses it, 0 during a fault or a tare; base frame.
+  exo_real ft_f_h[3]; // N
+  // Moment of the human about the handle under ft.source 2, for information: the law moves a point; base frame.
+  exo_real ft_moment[3]; // N.m
+  // What is wrong with the force sensor.
+  int32_t ft_fault;
+  // How far the last tare has come.
+  int32_t ft_tare_state;
+  // Why the last tare failed.
+  int32_t ft_tare_failure;
+  // Force that the sensor shows when nothing acts on it, from the last tare that was done; sensor frame.
+  exo_real ft_bias_force[3]; // N
+  // Moment that the sensor shows when nothing acts on it, from the last tare that was done; sensor frame.
+  exo_real ft_bias_torque[3]; // N.m
+  // State of the supervision; without it off, engaged or hold, as engage and hold say.
+  int32_t state;
+  // Why the law does not simply run at this tick; always 0 without supervision.
+  int32_t diagnostic;
+  // The first fault, kept until it is acknowledged; 0 if there is none.
+  int32_t first_fault;
+  // Share of its force that the law exerts; it rises from 0 when the controller engages and falls in a soft stop.
+  exo_real authority;
+  // Nominal mass matrix M_n(q), row by row; 0 in task space.
+  exo_real M_n[9]; // kg.m2
+  // Nominal joint angles (eq:obs_dyn); q in task space.
+  exo_real q_n[3]; // rad
+  // Nominal joint velocities (eq:obs_dyn); 0 in task space.
+  exo_real dq_n[3]; // rad/s
+  // Position error q_n - q of the joints, after the slip of passive_bounded; 0 in task space.
+  exo_real e_q[3]; // rad
 } exo_arm_outputs;
 
-// Gains of one axis.
-typedef struct exo_axis_gains {
-  // Nominal mass, kg, > 0.
-  exo_real M_n;
-  // Nominal damping, N·s/m, ≥ 0.
-  exo_real D_n;
-  // Control gain, N·s/m, > 0.
-  exo_real K;
-  // Ratio of the coupling's spring to its damper, 1/s, > 0.
-  exo_real K_P;
-  // Largest force on the robot, N, > 0.
-  exo_real tau_max;
-} exo_axis_gains;
+// One variable of a struct.
+typedef struct exo_variable {
+  // Its name in the FMU, without an index.
+  char name[40];
+  // In which struct it lies.
+  exo_role role;
+  // What it is there.
+  exo_kind kind;
+  // How many elements it has.
+  int32_t count;
+  // The first element, bytes from the begin of the struct.
+  size_t offset;
+  // From one element to the next, bytes.
+  size_t stride;
+} exo_variable;
 
-// Parameters of one axis.
+// Parameters of the law of one axis. Any bits may come from C: what cannot be used is refused by name.
 typedef struct exo_axis_parameters {
-  // 1 standard, 2 passive, 3 passive_applied, 4 passive_bounded.
+  // Admittance law.
   int32_t law;
-  // 0 or 1: samples after which the force reaches the robot.
+  // Nominal mass (eq:nom_dyn).
+  exo_real M_n; // kg
+  // Nominal damping (eq:nom_dyn).
+  exo_real D_n; // N.s/m
+  // Control gain, 1/epsilon of the paper (eq:dob_input).
+  exo_real K; // N.s/m
+  // Ratio of the coupling's spring to its damper (eq:dob_input).
+  exo_real K_P; // 1/s
+  // Damper between y and the reaction on the nominal; 1 is the unit damper that the paper hides in eq:obs_dyn.
+  exo_real alpha; // N.s/m
+  // Largest absolute value of tau_a; also the bound of the coupling spring's force under passive_bounded.
+  exo_real tau_max; // N
+  // Sample period.
+  exo_real T; // s
+  // Samples by which the importer's wiring delays tau_a, its first value being 0; it changes no force, only in which
+  // sample the ledger counts a force's work.
   int32_t delay;
-  // Whether the nominal keeps to q_n_min … q_n_max.
+  // Energy with which the tank starts and above which it does not fill.
+  exo_real E_0; // J
+  // Largest speed of the robot: the energy budget covers every motion within it.
+  exo_real v_max; // m/s
+  // Largest acceleration of the robot: the energy budget covers every motion within it.
+  exo_real a_max; // m/s2
+  // Corner frequency of a first-order low pass on dq; 0 = off.
+  exo_real dq_cutoff; // Hz
+  // Lightest effective mass that the robot shows, for gain_warning only.
+  exo_real M_min; // kg
+  // Time in which changed gains come into force, on a straight line; 0 = at once.
+  exo_real tuning_time; // s
+  // Largest speed of the nominal; 0 = no limit.
+  exo_real dq_n_max; // m/s
+  // Whether the nominal keeps within q_n_min and q_n_max.
   int32_t q_n_box;
-  // The gains to begin with.
-  struct exo_axis_gains gains;
-  // Damper of the reaction on the nominal, N·s/m, ≥ 0; 1 is the paper.
-  exo_real alpha;
-  // Sample period, s.
-  exo_real T;
-  // Largest speed of the robot for which passivity is promised, m/s.
-  exo_real v_max;
-  // Largest acceleration of the robot for which passivity is promised, m/s².
-  exo_real a_max;
-  // Corner frequency of a low pass on the velocity, Hz; 0 = off.
-  exo_real dq_cutoff;
-  // Energy with which the tank starts and above which it does not fill, J.
-  exo_real E_0;
-  // Time that changed gains take to come into force, s.
-  exo_real tuning_time;
-  // Largest speed of the nominal, m/s; 0 = no limit.
-  exo_real dq_n_max;
-  // Least position of the nominal, m.
-  exo_real q_n_min;
-  // Largest position of the nominal, m.
-  exo_real q_n_max;
-  // Largest rate of change of the force, N/s; 0 = no limit.
-  exo_real tau_rate_max;
+  // Least position of the nominal.
+  exo_real q_n_min; // m
+  // Largest position of the nominal.
+  exo_real q_n_max; // m
+  // Largest rate of change of tau_a while the controller is in the loop; 0 = no limit.
+  exo_real tau_rate_max; // N/s
 } exo_axis_parameters;
+
+// What is sensed and asked for at a tick.
+typedef struct exo_axis_inputs {
+  // Sensed position of the robot; the wall lies on the positive side.
+  double q; // m
+  // Sensed force of the human on the robot, positive along q.
+  exo_real tau_h; // N
+  // Whether the controller is in the loop. It engages at the first tick at which this is true, with q_n = q and dq_n
+  // = 0; while it is false tau_a is 0.
+  int32_t engage;
+  // Whether the nominal stays where it is: the coupling then carries any load within tau_max without drift; the laws
+  // 1 to 4 in torque form only.
+  int32_t hold;
+} exo_axis_inputs;
 
 // Memory of one axis's law. Its content is the library's; it may be copied as bytes, to keep and restore a state.
 typedef struct exo_axis_state {
   uint64_t words[128];
 } exo_axis_state;
 
-// What is sensed and asked for at a tick.
-typedef struct exo_axis_inputs {
-  // Position, m.
-  double q;
-  // Force of the human on the robot, N.
-  exo_real tau_h;
-  // Whether the law is to be in the loop.
-  int32_t engage;
-  // Whether the nominal is to stay where it is.
-  int32_t hold;
-} exo_axis_inputs;
-
 // What came of a tick; every value is the one at t_k.
 typedef struct exo_axis_outputs {
-  // Force on the robot, N, to be held until the next tick.
-  exo_real tau_a;
-  // The force before any limit, N.
-  exo_real tau_demand;
-  // Nominal position, m.
-  exo_real q_n;
-  // Nominal velocity, m/s.
-  exo_real dq_n;
-  // q_n − q, m.
-  exo_real e_nr;
-  // The robot's velocity as the law used it, m/s.
-  exo_real dq;
-  // Energy stored, J.
-  exo_real H;
-  // Energy created since the start, J; negative: dissipated.
-  exo_real G;
-  // What the energy tank holds, J.
-  exo_real tank;
-  // Share of the force that the energy budget left, in [0, 1].
+  // Control force on the robot, positive along q, held until the next tick (eq:dob_input, limited).
+  exo_real tau_a; // N
+  // K*y before any limit (eq:dob_input).
+  exo_real tau_demand; // N
+  // Nominal position (eq:obs_dyn).
+  exo_real q_n; // m
+  // Nominal velocity (eq:obs_dyn).
+  exo_real dq_n; // m/s
+  // Position error q_n - q, after the slip of passive_bounded.
+  exo_real e_nr; // m
+  // Velocity of the robot as the law uses it: backward difference of q, 0 at the first tick.
+  exo_real dq; // m/s
+  // Energy stored in nominal mass and coupling spring; 0 if alpha = 0, for which it is not defined.
+  exo_real H; // J
+  // Energy that the sampled law has created so far, negative: dissipated; 0 if alpha = 0.
+  exo_real G; // J
+  // Energy tank: energy.E_0 less what was created, refilled by dissipation up to energy.E_0; 0 if alpha = 0 and
+  // under the laws natural and sliding_mode, for which no energy is defined.
+  exo_real tank; // J
+  // Share of the force that the energy budget left at this tick; 1 unless something is wrong.
   exo_real share;
-  // Whether a limit leaves less than tau_demand.
+  // Whether tau_max leaves less than tau_demand.
   int32_t saturated;
-  // Whether a limit of the nominal, or hold, kept it back.
+  // Whether hold, dq_n_max or the position box kept the nominal back at this tick.
   int32_t held;
-  // Whether the robot moved faster than v_max and a_max allow.
+  // Whether the motion since the last tick exceeded v_max or a_max, to which the passivity argument is restricted.
   int32_t outside_bounds;
-  // Whether the law is in the loop.
+  // Whether the controller was in the loop at this tick.
   int32_t engaged;
-  // Whether the tank is below zero after a motion outside the bounds.
+  // Whether the tank is below 0: a motion beyond v_max and a_max cost more than it held; no force until it is
+  // repaid.
   int32_t debt;
 } exo_axis_outputs;
 
@@ -505,20 +600,20 @@ size_t exo_law_real_size(void);
 // Writes the start values into `parameters`.
 exo_status exo_arm_defaults(struct exo_arm_parameters *parameters);
 
+// Writes the start values into `inputs`: engaged, with good sensors, not enabled.
+exo_status exo_arm_inputs_defaults(struct exo_arm_inputs *inputs);
+
 // A law out of the loop in `state`, which may hold anything. Where a value is refused, `refusal`, which may be null, says
 // which, and `state` stays as it was.
 exo_status exo_arm_init(struct exo_arm_state *state,
                         const struct exo_arm_parameters *parameters,
                         struct exo_refusal *refusal);
 
-// Other gains: on a straight line over tuning_time, so that the stored energy does not rise. Where one is refused, the
-// gains stay as they were.
-exo_status exo_arm_tune(struct exo_arm_state *state, const struct exo_arm_gains *gains, struct exo_refusal *refusal);
-
-// Other gains of the joint-space form, likewise.
-exo_status exo_arm_tune_joints(struct exo_arm_state *state,
-                               const struct exo_arm_joint_gains *gains,
-                               struct exo_refusal *refusal);
+// Other gains: on a straight line over tuning_time, so that the stored energy does not rise. Of the parameters those count
+// that the FMU calls tunable; the others are as they were. Where a gain is refused, all stay as they were.
+exo_status exo_arm_tune(struct exo_arm_state *state,
+                        const struct exo_arm_parameters *parameters,
+                        struct exo_refusal *refusal);
 
 // One tick, every T. Where the status is not 0, `outputs` and `state` stay as they were; `refusal`, which may be null, says
 // which input was refused.
@@ -527,8 +622,14 @@ exo_status exo_arm_tick(struct exo_arm_state *state,
                         struct exo_arm_outputs *outputs,
                         struct exo_refusal *refusal);
 
+// Describes the variable number `i` of the structs of the arm, from 0: parameters, then inputs, then outputs.
+exo_status exo_arm_variable(size_t i, struct exo_variable *variable);
+
 // Writes the start values into `parameters`.
 exo_status exo_axis_defaults(struct exo_axis_parameters *parameters);
+
+// Writes the start values into `inputs`: engaged, at zero.
+exo_status exo_axis_inputs_defaults(struct exo_axis_inputs *inputs);
 
 // A law out of the loop in `state`, which may hold anything. Where a value is refused, `refusal`, which may be null, says
 // which, and `state` stays as it was.
@@ -536,9 +637,11 @@ exo_status exo_axis_init(struct exo_axis_state *state,
                          const struct exo_axis_parameters *parameters,
                          struct exo_refusal *refusal);
 
-// Other gains: on a straight line over tuning_time, so that the stored energy does not rise. Where one is refused, the
-// gains stay as they were.
-exo_status exo_axis_tune(struct exo_axis_state *state, const struct exo_axis_gains *gains, struct exo_refusal *refusal);
+// Other gains: on a straight line over tuning_time, so that the stored energy does not rise. Of the parameters those count
+// that the FMU calls tunable; the others are as they were. Where a gain is refused, all stay as they were.
+exo_status exo_axis_tune(struct exo_axis_state *state,
+                         const struct exo_axis_parameters *parameters,
+                         struct exo_refusal *refusal);
 
 // One tick, every T. Where the status is not 0, `outputs` and `state` stay as they were; `refusal`, which may be null, says
 // which input was refused.
@@ -546,6 +649,9 @@ exo_status exo_axis_tick(struct exo_axis_state *state,
                          const struct exo_axis_inputs *inputs,
                          struct exo_axis_outputs *outputs,
                          struct exo_refusal *refusal);
+
+// Describes the variable number `i` of the structs of one axis, from 0: parameters, then inputs, then outputs.
+exo_status exo_axis_variable(size_t i, struct exo_variable *variable);
 
 #ifdef __cplusplus
 }  // extern "C"

@@ -33,15 +33,7 @@ pub mod refusal;
 pub mod storage;
 pub mod variable;
 
-/// The law's number: double precision, or single precision in the library `exo_law_f32`.
-#[cfg(not(feature = "f32"))]
-pub type Real = f64;
-/// The law's number: double precision, or single precision in the library `exo_law_f32`.
-#[cfg(feature = "f32")]
-pub type Real = f32;
-
-// The header's number is the law's.
-const _: fn(Real) -> admittance::Real = |x| x;
+pub use admittance::Real;
 
 /// Size of the number that the library was built with, in bytes: must equal `sizeof(exo_real)`. Where it does not, the
 /// header was read with the other setting of `EXO_LAW_F32`.

@@ -8,6 +8,10 @@ use serde::{Deserialize, Serialize};
 
 /// The controller between two ticks.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[allow(
+    clippy::large_enum_variant,
+    reason = "one of them, once: a box would cost more than it saves"
+)]
 pub enum Controller {
     /// One of the four laws, torque form.
     Law(OneAxis),

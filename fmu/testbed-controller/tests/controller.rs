@@ -245,7 +245,7 @@ fn refusals_name_the_variable_the_value_and_the_range() {
         ),
         (
             |c| (c.parameters.dq_n_max, c.parameters.tau_rate_max) = (0.5, -1.0),
-            "tau_rate_max = -1: expected a value greater than 0",
+            "tau_rate_max = -1: expected a finite value not less than 0",
         ),
         (
             |c| (c.parameters.law, c.form) = (5, 2),
@@ -269,7 +269,7 @@ fn refusals_name_the_variable_the_value_and_the_range() {
         ),
         (
             |c| c.parameters.tau_max = 0.0,
-            "tau_max = 0: expected a value greater than 0",
+            "tau_max = 0: expected a finite value, at least 1e-6",
         ),
         (
             |c| c.parameters.E_0 = -1.0,

@@ -29,7 +29,7 @@ pub struct Substep {
 /// form in which v is computed.
 ///
 /// [`Friction::step`]: crate::friction::Friction::step
-#[inline(always)]
+#[inline(always)] // into both loops of the testbed: a sixth of their instructions
 pub fn substep(parameters: &Parameters, state: &State, forces: &Forces, dt: f64) -> Substep {
     let Parameters { M, friction, wall } = *parameters;
     let State { q, dq, s } = *state;

@@ -48,16 +48,6 @@ pub(crate) fn existing(path: PathBuf) -> PathBuf {
     path
 }
 
-/// The project's FMUs by name.
-pub const PRODUCTS: [&str; 6] = [
-    "TestbedController",
-    "Testbed",
-    "ArmController",
-    "ExoskeletonArm",
-    "HumanOperator",
-    "ExoskeletonArms",
-];
-
 impl Fmu {
     /// Unpacks and loads `<name>.fmu` from the [`directory`].
     ///
@@ -149,7 +139,7 @@ impl Fmu {
 
     /// The project's FMUs.
     pub fn products() -> Vec<Self> {
-        PRODUCTS.iter().map(|name| Self::open(name)).collect()
+        fmus::NAMES.iter().map(|name| Self::open(name)).collect()
     }
 
     /// A variable by its name.

@@ -37,10 +37,10 @@ fn native_loop(folder: &Path, n: u32, more: &[&str]) -> Output {
 fn linked(n: u32, law: i32, mass: f64) -> Vec<[f64; 6]> {
     let mut log = Log::silent();
     let (mut controller, mut plant) = (TestbedController::default(), Testbed::default());
-    (controller.law, plant.M) = (law, mass);
-    (controller.tau_h, plant.tau_h) = (forces(0).0, forces(0).0);
+    (controller.parameters.law, plant.M) = (law, mass);
+    (controller.inputs.tau_h, plant.tau_h) = (forces(0).0, forces(0).0);
     plant.initialize(0.0, &mut log).expect("start values");
-    controller.q = plant.q;
+    controller.inputs.q = plant.q;
     controller.initialize(0.0, &mut log).expect("start values");
     (0..n)
         .map(|k| {
@@ -50,13 +50,20 @@ fn linked(n: u32, law: i32, mass: f64) -> Vec<[f64; 6]> {
                 h: T,
             };
             let (tau_h, tau_d) = forces(k);
-            (controller.q, controller.tau_h) = (plant.q, tau_h);
+            (controller.inputs.q, controller.inputs.tau_h) = (plant.q, tau_h);
             controller.step(step, &mut log).expect("a step");
             let q = plant.q;
-            (plant.tau_a, plant.tau_h, plant.tau_d) = (controller.tau_a, tau_h, tau_d);
+            (plant.tau_a, plant.tau_h, plant.tau_d) = (controller.outputs.tau_a, tau_h, tau_d);
             plant.step(step, &mut log).expect("a step");
             let c = &controller;
-            [step.t, q, c.q_n, c.e_nr, c.tau_a, c.energy.G]
+            [
+                step.t,
+                q,
+                c.outputs.q_n,
+                c.outputs.e_nr,
+                c.outputs.tau_a,
+                c.outputs.G,
+            ]
         })
         .collect()
 }
@@ -66,7 +73,10 @@ fn the_loop_by_dlopen_equals_the_loop_of_the_linked_models() {
     let n = 1500;
     for (law, mass) in [(4, 6.0), (2, 3.5)] {
         let folder = tempfile::tempdir().expect("a temporary folder");
-        let (law_text, mass_text) = (format!("controller.law={law}"), format!("testbed.M={mass}"));
+        let (law_text, mass_text) = (
+            format!("controller.parameters.law={law}"),
+            format!("testbed.M={mass}"),
+        );
         let output = native_loop(folder.path(), n, &["--set", &law_text, "--set", &mass_text]);
         let stderr = String::from_utf8_lossy(&output.stderr);
         assert!(output.status.success() && stderr.is_empty(), "{stderr}");
@@ -102,8 +112,8 @@ fn mistakes_on_the_command_line_are_named() {
     for (more, part) in [
         (&["--set", "controller.K_Q=1"][..], "K_Q"),
         (&["--set", "plant.M=1"], "plant.M=1"),
-        (&["--set", "controller.law=2.5"], "law"),
-        (&["--set", "controller.law=9"], "law = 9"),
+        (&["--set", "controller.parameters.law=2.5"], "law"),
+        (&["--set", "controller.parameters.law=9"], "law = 9"),
         (&["--set", "testbed.M=-1"], "M = -1"),
         (&["--speed", "9"], "--speed"),
         (&["--set"], "--set needs a value"),

@@ -4,6 +4,7 @@ use crate::genes::{Genes, Reader};
 use crate::random::Random;
 use crate::subject::Setup;
 use admittance::{Bounds, Gains, Law, Reach, Settings};
+use declaration::range::SMALLEST;
 use nalgebra::SVector;
 
 /// How the robot is moved for a while.
@@ -97,7 +98,7 @@ pub struct Case<const N: usize> {
 }
 
 impl<const N: usize> Case<N> {
-    /// The case of these numbers.
+    /// The case of these numbers. Where a law accepts no smaller number the case has the smallest.
     pub fn new(genes: &Genes) -> Self {
         let mut g = Reader::new(genes);
         let T = g.decades(1e-4, 0.1);
@@ -127,31 +128,33 @@ impl<const N: usize> Case<N> {
             if i == 0 { x } else { x * factor }
         };
         let gains = core::array::from_fn(|i| Gains {
-            M_n: of_axis(i, M_n),
+            M_n: of_axis(i, M_n).max(SMALLEST),
             D_n: of_axis(i, D_n),
-            K: of_axis(i, K),
-            K_P: of_axis(i, K_P),
-            f_max: of_axis(i, f_max),
+            K: of_axis(i, K).max(SMALLEST),
+            K_P: of_axis(i, K_P).max(SMALLEST),
+            f_max: of_axis(i, f_max).max(SMALLEST),
         });
         let reach = Reach {
-            v_max: SVector::from_fn(|i, _| of_axis(i, v_max)),
-            a_max: SVector::from_fn(|i, _| of_axis(i, a_max)),
+            v_max: SVector::from_fn(|i, _| of_axis(i, v_max).max(SMALLEST)),
+            a_max: SVector::from_fn(|i, _| of_axis(i, a_max).max(SMALLEST)),
         };
         let speed = g.or_decades(0.7, f64::INFINITY, 1e-3 * v_max, 10.0 * v_max);
         let half = g.or_decades(0.7, f64::INFINITY, v_max * T, 1e3 * v_max * T);
         let bounds = [Bounds {
-            speed,
+            speed: speed.max(SMALLEST),
             q_min: -half,
             q_max: half,
         }; N];
         let typical = if f_max.is_finite() { f_max } else { K * v_max };
+        let rate = g.or_decades(0.6, f64::INFINITY, 1e-3 * typical / T, typical / T);
+        let tau_max = g.decades(1e-2, 1e2) * typical;
         let setup = Setup {
             settings,
             gains,
             bounds,
             reach,
-            rate: g.or_decades(0.6, f64::INFINITY, 1e-3 * typical / T, typical / T),
-            tau_max: g.decades(1e-2, 1e2) * typical,
+            rate: rate.max(SMALLEST),
+            tau_max: tau_max.max(SMALLEST),
             clip: g.chance(0.3),
         };
         Self {

@@ -228,7 +228,7 @@ impl<const OFF: u16> Subject<1> for Plain<OFF> {
     fn tick(&mut self, q: &Vector1<f64>, f_h: &Vector1<f64>, order: &Order<1>) -> Seen<1> {
         let authority = match order {
             Order::Rest => 0.0,
-            Order::Run(request) => request.share(),
+            Order::Run(request) => request.authority(),
         };
         self.step(q.x, f_h.x, authority)
     }

@@ -2,12 +2,17 @@
 
 use crate::audit::Supply;
 use admittance::{Admittance, Bounds, Gains, ParameterError, Reach, Request, Settings};
-use arm_law::joint_space::{JointGains, JointParameters, JointSpace};
+use arm_law::handle::HandleTick;
+use arm_law::joint_space::{JointGains, JointParameters, JointSpace, Nominal};
 use arm_law::kinematics::Kinematics;
 use arm_law::limits::{Limits, TorqueLimiting};
 use arm_law::nominal::NominalArm;
 use arm_law::task_space::TaskSpace;
-use nalgebra::{SVector, Vector3};
+use nalgebra::{Matrix3, SVector, Vector3};
+
+/// What an attack is made of.
+const FINITE: &str =
+    "forces and motions that are finite, and not so large that the law's numbers overflow";
 
 /// What is wanted of the law at a tick.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -91,7 +96,8 @@ impl Arm {
     /// A tick at which the arm's position is not known: no torque.
     pub fn blind(&mut self) {
         let pose = self.kinematics.at(&Self::home());
-        self.law.abandon(&pose);
+        let mut done = HandleTick::at_rest(&pose.p, false);
+        self.law.abandon(&pose, &mut done);
     }
 }
 
@@ -177,10 +183,12 @@ impl Subject<3> for Arm {
 
     fn tick(&mut self, q: &Vector3<f64>, f_h: &Vector3<f64>, order: &Order<3>) -> Seen<3> {
         let pose = self.kinematics.at(q);
-        let done = match order {
-            Order::Rest => self.law.rest(&pose, q),
-            Order::Run(request) => self.law.step(&pose, q, f_h, request),
-        };
+        let mut done = HandleTick::at_rest(&pose.p, false);
+        match order {
+            Order::Rest => self.law.rest(&pose, q, &mut done),
+            Order::Run(request) => self.law.step(&pose, q, f_h, request, &mut done),
+        }
+        .expect(FINITE);
         let ledger = self.law.ledger();
         Seen {
             tau: done.tau,
@@ -226,7 +234,7 @@ fn of_joints(gains: &[Gains; 3]) -> JointGains {
 /// The nominal arm with all its masses and inertias times M_n/1 kg, a kilogram being about what its links have.
 fn scaled(M_n: f64) -> NominalArm {
     let mut arm = NominalArm::default();
-    arm.rotor *= M_n;
+    arm.rotor = arm.rotor.map(|inertia| inertia * M_n);
     for link in &mut arm.links {
         for x in [
             &mut link.m,
@@ -267,10 +275,15 @@ impl Subject<3> for JointArm {
 
     fn tick(&mut self, q: &Vector3<f64>, f_h: &Vector3<f64>, order: &Order<3>) -> Seen<3> {
         let pose = self.kinematics.at(q);
-        let (done, nominal) = match order {
-            Order::Rest => self.law.rest(&pose, q),
-            Order::Run(request) => self.law.step(&pose, q, f_h, request),
-        };
+        let mut done = HandleTick::at_rest(&pose.p, false);
+        let mut nominal = Nominal::at(q, Matrix3::zeros());
+        match order {
+            Order::Rest => self.law.rest(&pose, q, &mut done, &mut nominal),
+            Order::Run(request) => self
+                .law
+                .step(&pose, q, f_h, request, &mut done, &mut nominal),
+        }
+        .expect(FINITE);
         let ledger = self.law.ledger();
         Seen {
             tau: done.tau,

@@ -2,6 +2,7 @@
 
 use crate::random::Random;
 use admittance::Gains;
+use declaration::range::SMALLEST;
 
 /// Gains on their way.
 #[derive(Clone, Debug)]
@@ -23,17 +24,17 @@ impl<const N: usize> Tuning<N> {
         }
     }
 
-    /// Other gains within so many decades of `base`.
+    /// Other gains within so many decades of `base`, none below what the law accepts.
     pub fn another(&mut self, base: &[Gains; N], decades: f64, random: &mut Random) -> [Gains; N] {
         let most = 10f64.powf(decades);
         self.wanted = base.map(|base| {
             let mut other = |x: f64| x * random.decades(1.0 / most, most);
             Gains {
-                M_n: other(base.M_n),
+                M_n: other(base.M_n).max(SMALLEST),
                 D_n: other(base.D_n),
-                K: other(base.K),
-                K_P: other(base.K_P),
-                f_max: other(base.f_max),
+                K: other(base.K).max(SMALLEST),
+                K_P: other(base.K_P).max(SMALLEST),
+                f_max: other(base.f_max).max(SMALLEST),
             }
         });
         self.left = self.ticks;

@@ -1,6 +1,7 @@
 //! Motions beyond the reach: flagged, reported as a debt, no force until it is repaid, and no more energy than the excess.
 #![allow(non_snake_case, reason = "the paper's symbols")]
 
+use admittance::budget::SampleReach;
 use admittance::{Admittance, Gains, Reach, Settings};
 use adversary::random::Random;
 use nalgebra::Vector1;
@@ -39,6 +40,7 @@ fn no_more_energy_is_given_out_than_E_0_and_the_excess() {
     for seed in 0..20 {
         let mut random = Random::new(seed);
         let mut law = law();
+        let reach = SampleReach::new(&reach(), T);
         let (mut q, mut f_h) = (0.0, 0.0);
         let mut last: Option<f64> = None;
         let (mut excess, mut most, mut debts, mut forces_in_debt, mut repaid) =
@@ -81,9 +83,9 @@ fn no_more_energy_is_given_out_than_E_0_and_the_excess() {
             let next = q + step;
             let step = next - q;
             let foretelling = last.filter(|_| !outside).map(Vector1::new);
-            let covered = reach().most_work(&tick.f, foretelling.as_ref(), 1, T);
+            let covered = reach.most_work(&tick.f, foretelling.as_ref(), 1);
             excess += f64::max(0.0, tick.f.x * step - covered);
-            outside = reach().is_left(&Vector1::new(step), last.map(Vector1::new).as_ref(), T);
+            outside = reach.is_left(&Vector1::new(step), last.map(Vector1::new).as_ref());
             (q, last) = (next, Some(step));
         }
         assert!(

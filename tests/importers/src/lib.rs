@@ -27,16 +27,6 @@ pub use imported::{Imported, Type, Variable};
 
 use std::path::{Path, PathBuf};
 
-/// The project's FMUs by name.
-pub const FMUS: [&str; 6] = [
-    "TestbedController",
-    "Testbed",
-    "ArmController",
-    "ExoskeletonArm",
-    "HumanOperator",
-    "ExoskeletonArms",
-];
-
 /// Path of a built archive.
 ///
 /// # Panics

@@ -1,17 +1,12 @@
 //! The `fmi` crate reads the description of every FMU. What it refuses although it is valid is shown beside.
 
-use arm_controller::ArmController;
+use catalogue::models::*;
 use declaration::{Causality, Declare, provenance};
-use exoskeleton_arm::ExoskeletonArm;
-use exoskeleton_arms::ExoskeletonArms;
 use fmi::schema::fmi2::{Causality as Read, Fmi2ModelDescription};
 use fmi::traits::FmiImport as _;
-use human_operator::HumanOperator;
 use importers::imported::{import, variables};
 use std::path::Path;
 use std::str::FromStr as _;
-use testbed::Testbed;
-use testbed_controller::TestbedController;
 
 fn read_as_declared<M: Declare>() {
     let import = import(&importers::archive(M::DESCRIPTION.name)).expect("read");
@@ -51,14 +46,15 @@ fn read_as_declared<M: Declare>() {
     assert_eq!(read, positions);
 }
 
+macro_rules! each_is_read_as_declared {
+    ($($crate_name:ident::$Type:ident, picture $picture:literal;)*) => {
+        $(read_as_declared::<$crate_name::$Type>();)*
+    };
+}
+
 #[test]
 fn the_importer_reads_the_declared_variables() {
-    read_as_declared::<TestbedController>();
-    read_as_declared::<Testbed>();
-    read_as_declared::<ArmController>();
-    read_as_declared::<ExoskeletonArm>();
-    read_as_declared::<HumanOperator>();
-    read_as_declared::<ExoskeletonArms>();
+    fmus::each!(each_is_read_as_declared);
 }
 
 /// The committed description of the testbed, with one part replaced.

@@ -1,5 +1,6 @@
 //! The `fmi` crate couples the built FMUs; the models linked into this test do the same without FMI.
 
+use declaration::place::Place;
 use declaration::{Access, Causality, Declare};
 use export::{Log, Model, Step};
 use fmi::fmi2::instance::{CoSimulation as _, Common as _};
@@ -90,13 +91,14 @@ impl Driven for Built {
 struct Linked<M>(M);
 
 impl<M: Model> Linked<M> {
-    fn set_real(&mut self, name: &str, value: f64) {
+    /// Where the Real of this name lies.
+    fn place(name: &str) -> (Place<M, f64>, usize) {
         let scalar = M::DESCRIPTION
             .scalars()
             .find(|scalar| scalar.name() == name)
             .unwrap_or_else(|| panic!("no {name}"));
         match scalar.variable.access {
-            Access::Real { at, .. } => at.set(&mut self.0, scalar.element, value),
+            Access::Real { at, .. } => (at, scalar.element),
             _ => panic!("{name} is not a Real"),
         }
     }
@@ -104,7 +106,8 @@ impl<M: Model> Linked<M> {
 
 impl<M: Model> Driven for Linked<M> {
     fn set(&mut self, name: &str, value: f64) {
-        self.set_real(name, value);
+        let (place, element) = Self::place(name);
+        place.set(&mut self.0, element, value);
     }
 
     fn initialize(&mut self) {
@@ -146,7 +149,8 @@ impl<M: Model> Driven for Linked<M> {
     }
 
     fn real(&mut self, name: &str) -> f64 {
-        *self.at(name)
+        let (place, element) = Self::place(name);
+        place.get(&self.0, element)
     }
 }
 

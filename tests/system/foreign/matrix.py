@@ -64,9 +64,17 @@ def _files(paths: list[str]) -> str:
     return ", ".join(f"`{path}`" for path in paths)
 
 
+def names() -> tuple[str, ...]:
+    """The FMUs: those with a committed description, which are those of the list in `modelDescription/fmus`."""
+    return tuple(sorted(path.stem for path in (ROOT / "modelDescription").glob("*.xml")))
+
+
 def load() -> Matrix:
     """`matrix.toml` as it is now."""
-    return Matrix(**tomllib.loads(Path(__file__).with_name("matrix.toml").read_text(encoding="utf-8")))
+    tables = tomllib.loads(Path(__file__).with_name("matrix.toml").read_text(encoding="utf-8"))
+    ran = tables.pop("fmus")["ran"]
+    fmus = [{"name": f"{name}.fmu", "ran": ran} for name in names()]
+    return Matrix(**{**tables, "subject": fmus + tables["subject"]})
 
 
 def filled(document: str, text: str) -> str:

@@ -3,16 +3,12 @@
 use super::platform::{Linker, Platform, Standard};
 use super::runtime;
 use super::toolchain::{Toolchains, path_with, with_libraries, with_zig};
-use crate::build::{git_hash, remapping};
-use crate::catalogue::FMUS;
+use crate::build::{LAG, git_hash, remapping};
+use crate::component::Component;
 use crate::process::{Outcome, at, cargo, program, root, run};
-use model_description::Component;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::Command;
-
-/// The test model of `modelDescription/export/examples/lag.rs`: it can panic when told to.
-pub const LAG: &str = "lag";
 
 /// What was built, and how.
 pub struct Built {
@@ -84,13 +80,13 @@ impl Plan {
             .args(["--locked", "--release", "--target-dir"])
             .arg(target);
         let mut names = Vec::new();
-        for (package, name) in FMUS
+        for (package, name) in fmus::ALL
             .iter()
-            .map(|fmu| (fmu.package, fmu.name))
-            .chain([("export", LAG)])
+            .map(|fmu| (fmu.package(), fmu.name))
+            .chain([("export".to_owned(), LAG)])
             .filter(|(_, name)| only.is_none_or(|only| only == *name))
         {
-            command.args(["--package", package, "--example", name]);
+            command.args(["--package", &package, "--example", name]);
             names.push(name);
         }
         let compilers = self.rust.as_deref().map(renamed).unwrap_or_default();

@@ -70,7 +70,10 @@ pub fn build(tools: &Toolchains) -> Outcome<Result<String, String>> {
             .join(TARGET)
             .join(precision.folder);
         crate::fmu::replace(&folder.join(precision.library), &bytes)?;
-        crate::fmu::replace(&folder.join("exo_law.h"), law::header()?.as_bytes())?;
+        crate::fmu::replace(
+            &folder.join("exo_law.h"),
+            crate::catalogue::law_header()?.as_bytes(),
+        )?;
     }
     Ok(Ok(format!("bytes of code: {}", sizes.join(", "))))
 }

@@ -12,7 +12,7 @@
 //! | [`firmware`], [`processor`] | the C library for a microcontroller, and run emulated |
 //! | [`mod@inspect`] | exports, needed libraries, floor of the C library |
 //! | [`runtime`] | what the tools link in, with its licences |
-//! | [`table`], [`host`] | the C host, and what two platforms must agree on |
+//! | [`host`] | the C host, and what two platforms must agree on |
 
 mod compile;
 mod debian;
@@ -22,19 +22,17 @@ mod inspect;
 mod platform;
 mod processor;
 mod runtime;
-mod table;
 mod toolchain;
 
 use crate::build::forbid_private_paths;
-use crate::catalogue::FMUS;
+use crate::catalogue::{Request, pack};
+use crate::component::Component;
 use crate::linked;
 use crate::process::{Failure, Outcome, at, root, run};
 use crate::venv::Venv;
 use compile::{Built, Plan};
 use host::{Host, Texts, compare, moves};
 use inspect::inspect;
-use model_description::Component;
-use model_description::archive::Binary;
 use platform::{GLIBC, PLATFORMS, Platform, Runner};
 use std::time::Instant;
 use toolchain::Toolchains;
@@ -49,6 +47,45 @@ struct Row {
     ran: String,
 }
 
+/// Names of the platforms.
+#[cfg(test)]
+pub fn platforms() -> Vec<&'static str> {
+    PLATFORMS.iter().map(|platform| platform.folder).collect()
+}
+
+/// Fetches all tools that can be had; those that cannot are named by who needs them.
+pub fn toolchains() -> Outcome {
+    Toolchains::default().fetch();
+    Ok(())
+}
+
+/// Builds and inspects one platform's libraries, if the tools for it can be had.
+pub fn platform(folder: &str) -> Outcome {
+    let tools = Toolchains::default();
+    let platform = PLATFORMS.iter().find(|one| one.folder == folder);
+    let platform = platform.ok_or(Failure::Missing("no such platform"))?;
+    let row = row(platform, &tools)?;
+    println!("   {}", row.needs);
+    Ok(())
+}
+
+fn row(platform: &'static Platform, tools: &Toolchains) -> Outcome<Row> {
+    let (built, needs) = match Plan::of(platform, tools) {
+        Ok(plan) => {
+            let built = plan.build(platform, &compile::folder(), None)?;
+            let needs = inspected(platform, &built)?;
+            (Some(built), needs)
+        }
+        Err(reason) => (None, format!("not built: {reason}")),
+    };
+    Ok(Row {
+        platform,
+        built,
+        needs,
+        ran: String::new(),
+    })
+}
+
 /// Builds `target/dist/*.fmu`; with `check` also runs and compares what can be run here, and builds one library twice.
 pub fn dist(check: bool) -> Outcome {
     let tools = Toolchains::default();
@@ -56,24 +93,7 @@ pub fn dist(check: bool) -> Outcome {
     for platform in &PLATFORMS {
         println!("\n── {}", platform.folder);
         let began = Instant::now();
-        let row = match Plan::of(platform, &tools) {
-            Ok(plan) => {
-                let built = plan.build(platform, &compile::folder(), None)?;
-                let needs = inspected(platform, &built)?;
-                Row {
-                    platform,
-                    built: Some(built),
-                    needs,
-                    ran: String::new(),
-                }
-            }
-            Err(reason) => Row {
-                platform,
-                built: None,
-                needs: format!("not built: {reason}"),
-                ran: String::new(),
-            },
-        };
+        let row = row(platform, &tools)?;
         println!("   {}: {:.1} s", row.needs, began.elapsed().as_secs_f64());
         rows.push(row);
     }
@@ -98,9 +118,10 @@ pub fn dist(check: bool) -> Outcome {
 /// Inspects every library of a platform; says what they need.
 fn inspected(platform: &Platform, built: &Built) -> Outcome<String> {
     let mut needs = std::collections::BTreeSet::new();
+    let functions = crate::catalogue::functions()?;
     let (mut glibc, mut size) = (None, 0);
     for (name, library) in &built.libraries {
-        let report = inspect(&library.bytes, platform, built.strict)
+        let report = inspect(&library.bytes, platform, &functions, built.strict)
             .map_err(|what| Failure::Found(format!("{name} for {}: {what}", platform.folder)))?;
         forbid_private_paths(&library.path.to_string_lossy(), &library.bytes)?;
         needs.extend(report.needs);
@@ -118,49 +139,30 @@ fn inspected(platform: &Platform, built: &Built) -> Outcome<String> {
     Ok(format!("{floor}needs {needs}; at most {} kB", size / 1000))
 }
 
-/// Writes the archives, each twice in memory.
+/// Writes the archives.
 fn merge(rows: &[Row]) -> Outcome {
-    let runtimes: Vec<_> = rows
+    let built: Vec<_> = rows
         .iter()
-        .filter_map(|row| row.built.as_ref())
-        .flat_map(|built| built.runtimes.clone())
+        .filter_map(|row| Some((row.platform, row.built.as_ref()?)))
         .collect();
-    for fmu in FMUS {
-        let interface = fmu.interface()?;
-        let binaries: Vec<_> = rows
-            .iter()
-            .filter_map(|row| {
-                let library = row.built.as_ref()?.libraries.get(fmu.name)?;
-                Some(Binary {
-                    platform: row.platform.folder,
-                    extension: row.platform.suffix,
-                    bytes: &library.bytes,
-                })
-            })
-            .collect();
-        if binaries.is_empty() {
-            return Err(Failure::Found(format!(
-                "{}: built for no platform",
-                fmu.name
-            )));
-        }
-        let mut components = linked::components(fmu.package)?;
-        components.extend(runtimes.iter().cloned());
+    if built.is_empty() {
+        return Err(Failure::Found("built for no platform".to_owned()));
+    }
+    let mut requests = Vec::new();
+    for fmu in fmus::ALL {
+        let mut components = linked::components(&fmu.package())?;
+        components.extend(built.iter().flat_map(|(_, built)| built.runtimes.clone()));
         components.sort_by_key(Component::id);
         // The two compilers can be of one version.
         components.dedup_by_key(|component| component.id());
-        let write = || crate::fmu::archive(&fmu, &interface, &binaries, &components);
-        let bytes = write()?;
-        if bytes != write()? {
-            return Err(Failure::Found(format!("{}: two archives differ", fmu.name)));
+        let mut request = Request::new(fmu.name, &root().join("target/dist"), components);
+        for (platform, built) in &built {
+            let library = &built.libraries[fmu.name];
+            request.add(platform.folder, platform.suffix, &library.path);
         }
-        let path = root()
-            .join("target/dist")
-            .join(fmu.name)
-            .with_extension("fmu");
-        crate::fmu::replace(&path, &bytes)?;
+        requests.push(request);
     }
-    Ok(())
+    pack(&requests)
 }
 
 /// The coupled systems, with these archives in them.
@@ -253,7 +255,11 @@ fn validated(rows: &[Row]) -> Outcome {
             }
         }
     }
-    run(validate.args(FMUS.map(|fmu| format!("target/dist/{}.fmu", fmu.name))))
+    run(validate.args(
+        fmus::NAMES
+            .iter()
+            .map(|name| format!("target/dist/{name}.fmu")),
+    ))
 }
 
 /// Prints what was built, run and left out, and keeps it beside the archives.

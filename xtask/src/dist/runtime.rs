@@ -2,9 +2,9 @@
 //! files. Their licences go into the archive like those of the packages.
 
 use super::toolchain::{with_libraries, zig_folder};
+use crate::component::Component;
 use crate::licence;
 use crate::process::{Failure, Outcome, answer, at, program};
-use model_description::Component;
 use std::path::{Path, PathBuf};
 
 /// Debian's standard library of Rust.

@@ -26,6 +26,24 @@ pub struct Toolchains {
 }
 
 impl Toolchains {
+    /// Fetches all, those that nothing here can use included.
+    pub fn fetch(&self) {
+        for (name, tool) in [
+            ("zig", self.zig()),
+            ("rust", self.rust()),
+            ("apple", self.apple()),
+            ("mingw", self.mingw()),
+            ("arm-binutils", self.arm_binutils()),
+            ("wine", self.wine()),
+            ("qemu", self.qemu()),
+        ] {
+            match tool {
+                Ok(_) => println!("{name}: there"),
+                Err(reason) => println!("{name}: not there: {reason}"),
+            }
+        }
+    }
+
     /// zig and cargo-zigbuild: the folder of their programs.
     pub fn zig(&self) -> Tool {
         self.zig

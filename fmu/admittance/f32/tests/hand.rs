@@ -10,12 +10,12 @@ const T: f64 = 0.001;
 #[test]
 fn a_swing_that_grows_and_ends_is_seen_and_left_at_the_same_ticks() {
     let hand = double::StiffHand {
-        active: true,
+        active: 1,
         ..double::StiffHand::default()
     };
     let in_double = double::Watch::new(hand, T).expect("valid parameters");
     let hand = single::StiffHand {
-        active: true,
+        active: 1,
         ..single::StiffHand::default()
     };
     let in_single = single::Watch::new(hand, T as f32).expect("valid parameters");

@@ -64,6 +64,15 @@ impl Watch {
     pub fn new(hand: StiffHand, T: Real) -> Result<Self, ParameterError> {
         check(None, &[("T", T, POSITIVE)])?;
         in_range(&hand)?;
+        // The row's range includes its end, like every `min` of FMI.
+        if hand.growth <= 1.0 {
+            return Err(ParameterError::OutOfRange {
+                name: "stiff_hand.growth",
+                axis: None,
+                value: hand.growth,
+                expected: Expected::Text("a value greater than 1"),
+            });
+        }
         let in_order = hand.f_high > hand.f_low;
         if !in_order || hand.active != 0 && 2.0 * hand.f_high * T * FEWEST_SAMPLES > 1.0 {
             return Err(ParameterError::OutOfRange {

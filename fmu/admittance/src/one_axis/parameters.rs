@@ -8,7 +8,7 @@ use crate::{Bounds, Gains, Law, ParameterError, Reach, Real, Settings};
 use declaration::{Rows, Start};
 use nalgebra::Vector1;
 
-/// Parameters of the law of one axis. C may hand over any bits: [`checked`](Self::checked) says what can be used.
+/// Parameters of the law of one axis. Any bits may come from C: what cannot be used is refused by name.
 #[derive(Clone, Copy, Debug, PartialEq, Rows, Start)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[repr(C)]

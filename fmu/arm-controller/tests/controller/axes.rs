@@ -36,7 +36,12 @@ fn without_limits_the_arm_equals_three_scalar_axes() {
                 let Gains {
                     M_n, D_n, K, K_P, ..
                 } = gains(i);
-                (c.parameters.Lambda_n[i], c.parameters.D_n[i], c.parameters.K[i], c.parameters.K_P[i]) = (M_n, D_n, K, K_P);
+                (
+                    c.parameters.Lambda_n[i],
+                    c.parameters.D_n[i],
+                    c.parameters.K[i],
+                    c.parameters.K_P[i],
+                ) = (M_n, D_n, K, K_P);
             }
         });
         let settings = Settings {
@@ -50,24 +55,37 @@ fn without_limits_the_arm_equals_three_scalar_axes() {
             let (q, f_h) = world(k);
             (arm.inputs.q, arm.inputs.f_h) = (q, f_h);
             tick(&mut arm, k);
-            assert!(arm.outputs.saturated == 0 && arm.outputs.slowed == 0, "law {law}, tick {k}");
+            assert!(
+                arm.outputs.saturated == 0 && arm.outputs.slowed == 0,
+                "law {law}, tick {k}"
+            );
             let p = Kinematics::default().at(&q.into()).p;
             for (i, axis) in axes.iter_mut().enumerate() {
                 let alone = axis.step(&Vector1::new(p[i]), &Vector1::new(f_h[i]));
                 assert_eq!(
-                    (arm.outputs.f_a[i], arm.outputs.p_n[i], arm.outputs.dp_n[i], arm.outputs.e_nr[i], arm.outputs.dp[i]),
+                    (
+                        arm.outputs.f_a[i],
+                        arm.outputs.p_n[i],
+                        arm.outputs.dp_n[i],
+                        arm.outputs.e_nr[i],
+                        arm.outputs.dp[i]
+                    ),
                     (
                         alone.f.x,
-                        alone.outputs.q_n.x,
-                        alone.outputs.dq_n.x,
-                        alone.outputs.e_nr.x,
+                        alone.q_n.x,
+                        alone.dq_n.x,
+                        alone.e_nr.x,
                         alone.dq.x
                     ),
                     "law {law}, tick {k}, axis {i}"
                 );
             }
         }
-        assert!(arm.outputs.f_a.iter().all(|f_a| f_a.abs() > 1.0), "{:?}", arm.outputs.f_a);
+        assert!(
+            arm.outputs.f_a.iter().all(|f_a| f_a.abs() > 1.0),
+            "{:?}",
+            arm.outputs.f_a
+        );
     }
 }
 

@@ -55,7 +55,10 @@ fn with_joints_that_cannot_deliver_f_max_it_still_creates_none_here() {
         close_the_loop(&mut c, &mut robot, k, human(k));
         let delivered: f64 = Vector3::from(c.outputs.f_a).amax();
         scaled += u32::from(c.outputs.saturated != 0 && delivered < 399.0);
-        assert!((0..3).all(|i| (c.parameters.K[i] * c.parameters.K_P[i] * c.outputs.e_nr[i]).abs() <= 400.0 * (1.0 + 1e-15))); // rounding
+        assert!((0..3).all(
+            |i| (c.parameters.K[i] * c.parameters.K_P[i] * c.outputs.e_nr[i]).abs()
+                <= 400.0 * (1.0 + 1e-15)
+        )); // rounding
         assert!(c.outputs.G <= 1e-12, "tick {k}: {} J", c.outputs.G); // as above
         assert!(c.outputs.tank > 9.0, "tick {k}: {} J", c.outputs.tank);
     }
@@ -109,7 +112,11 @@ fn recounted(change: fn(&mut ArmController), delay: usize) {
             let tau = taus[k as usize - 1];
             // No spring slips here, so the nominal's way is T v_m.
             let supplied: f64 = (0..3)
-                .map(|i| c.parameters.K[i] * last.inputs.f_h[i] * (c.outputs.p_n[i] - last.outputs.p_n[i]))
+                .map(|i| {
+                    c.parameters.K[i]
+                        * last.inputs.f_h[i]
+                        * (c.outputs.p_n[i] - last.outputs.p_n[i])
+                })
                 .sum();
             let way = Vector3::from(c.inputs.q) - Vector3::from(last.inputs.q);
             G += c.outputs.H - last.outputs.H + tau.dot(&way) - supplied;
@@ -129,16 +136,28 @@ fn recounted(change: fn(&mut ArmController), delay: usize) {
 fn G_is_the_energy_balance_at_the_joints() {
     recounted(|c| c.parameters.law = 2, 0);
     recounted(
-        |c| (c.parameters.law, c.parameters.torque_limiting, c.parameters.tau_max) = (2, 2, [3.0; 3]),
+        |c| {
+            (
+                c.parameters.law,
+                c.parameters.torque_limiting,
+                c.parameters.tau_max,
+            ) = (2, 2, [3.0; 3])
+        },
         0,
     );
-    recounted(|c| (c.parameters.law, c.parameters.tau_max) = (1, [3.0; 3]), 0);
+    recounted(
+        |c| (c.parameters.law, c.parameters.tau_max) = (1, [3.0; 3]),
+        0,
+    );
 }
 
 #[test]
 fn a_delayed_torque_works_one_sample_later() {
     recounted(|c| c.parameters.law = 2, 1);
-    recounted(|c| (c.parameters.law, c.parameters.tau_max) = (3, [3.0; 3]), 1);
+    recounted(
+        |c| (c.parameters.law, c.parameters.tau_max) = (3, [3.0; 3]),
+        1,
+    );
 }
 
 #[test]

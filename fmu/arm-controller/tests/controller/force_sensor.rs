@@ -18,16 +18,23 @@ fn a_force_in_the_sensors_frame_acts_like_the_same_force_in_the_base_frame() {
     for k in 0..1000 {
         let (q, f_h) = world(k);
         let f_h = Vector3::from(f_h) + Vector3::new(1.0, -2.0, 3.0);
-        (base.q, base.f_h) = (q, f_h.into());
-        (sensor.q, sensor.f_h) = (q, (link_3(q).inverse() * f_h).into());
+        (base.inputs.q, base.inputs.f_h) = (q, f_h.into());
+        (sensor.inputs.q, sensor.inputs.f_h) = (q, (link_3(q).inverse() * f_h).into());
         tick(&mut base, k);
         tick(&mut sensor, k);
         for i in 0..3 {
             // Rounding of the rotation, 1e-15 N, amplified by K/(2 Lambda_n/T) and K K_P.
-            assert!((base.f_a[i] - sensor.f_a[i]).abs() < 1e-11, "tick {k}");
+            assert!(
+                (base.outputs.f_a[i] - sensor.outputs.f_a[i]).abs() < 1e-11,
+                "tick {k}"
+            );
         }
     }
-    assert!(base.f_a.iter().all(|f_a| f_a.abs() > 1.0), "{:?}", base.f_a);
+    assert!(
+        base.outputs.f_a.iter().all(|f_a| f_a.abs() > 1.0),
+        "{:?}",
+        base.outputs.f_a
+    );
 }
 
 #[test]
@@ -62,10 +69,13 @@ fn a_broken_sensor_is_named_and_the_law_goes_on_without_force() {
 fn a_tare_takes_the_bias_off_and_keeps_the_arm_where_it_is() {
     let mut controller = initialized(|c| c.inputs.f_h = [0.0, 1.0, 0.0]);
     for k in 0..2000 {
-        controller.inputs.ft_tare = k == 0;
+        controller.inputs.ft_tare = (k == 0).into();
         tick(&mut controller, k);
         let running = k < 499;
-        assert_eq!(controller.outputs.ft_tare_state, if running { 1 } else { 2 });
+        assert_eq!(
+            controller.outputs.ft_tare_state,
+            if running { 1 } else { 2 }
+        );
         assert_eq!(controller.outputs.ft_f_h, [0.0; 3]);
         assert_eq!(
             controller.outputs.ft_bias_force,
@@ -92,7 +102,10 @@ fn a_tare_that_fails_says_why() {
     });
     (0..500).for_each(|k| tick(&mut controller, k));
     assert_eq!(
-        (controller.outputs.ft_tare_state, controller.outputs.ft_tare_failure),
+        (
+            controller.outputs.ft_tare_state,
+            controller.outputs.ft_tare_failure
+        ),
         (3, 4)
     );
     assert_eq!(controller.outputs.ft_bias_force, [0.0; 3]);
@@ -130,6 +143,12 @@ fn before_the_first_tick_nothing_was_sensed() {
         c.inputs.f_h = [f64::NAN; 3];
         c.inputs.ft_tare = 1;
     });
-    assert_eq!((controller.outputs.ft_fault, controller.outputs.ft_tare_state), (0, 0));
+    assert_eq!(
+        (
+            controller.outputs.ft_fault,
+            controller.outputs.ft_tare_state
+        ),
+        (0, 0)
+    );
     assert_eq!(controller.outputs.ft_f_h, [0.0; 3]);
 }

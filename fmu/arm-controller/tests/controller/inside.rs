@@ -39,7 +39,7 @@ fn the_nominal_obeys_its_speed_limit_and_reaches_it() {
 fn the_nominal_stays_in_its_box_and_gets_to_the_edge() {
     let mut highest = f64::MIN;
     let limited = |c: &mut ArmController| {
-        (c.parameters.dp_n_max, c.parameters.p_n_box) = ([0.1; 3], true);
+        (c.parameters.dp_n_max, c.parameters.p_n_box) = ([0.1; 3], 1);
         (c.parameters.p_n_min, c.parameters.p_n_max) = ([-1.0; 3], [1.0, 0.04, 1.0]);
     };
     push(limited, [0.0, 8.0, 0.0], 3000, |c| {
@@ -83,7 +83,9 @@ fn hold_keeps_the_nominal_where_it_is_under_a_steady_push() {
 #[test]
 fn changed_gains_come_into_force_over_the_tuning_time() {
     let force_after = |tuning_time: f64, ticks: u32| {
-        let mut c = initialized(|c| (c.inputs.f_h, c.parameters.tuning_time) = ([0.0, 0.0, 4.0], tuning_time));
+        let mut c = initialized(|c| {
+            (c.inputs.f_h, c.parameters.tuning_time) = ([0.0, 0.0, 4.0], tuning_time)
+        });
         (0..50).for_each(|k| tick(&mut c, k));
         let before = c.outputs.f_a[2];
         (c.parameters.K, c.parameters.D_n) = ([2000.0; 3], [40.0; 3]);
@@ -100,14 +102,20 @@ fn a_bad_limit_is_refused_by_name_value_and_range() {
     let cases: [(Change, &str); 3] = [
         (
             |c| c.parameters.dp_n_max[1] = -1.0,
-            "dp_n_max[2] = -1: expected a value greater than 0",
+            "dp_n_max[2] = -1: expected a finite value not less than 0",
         ),
         (
             |c| c.parameters.tau_rate_max[0] = -5.0,
-            "tau_rate_max[1] = -5: expected a value greater than 0",
+            "tau_rate_max[1] = -5: expected a finite value not less than 0",
         ),
         (
-            |c| (c.parameters.p_n_box, c.parameters.p_n_min[2], c.parameters.p_n_max[2]) = (true, 0.5, 0.5),
+            |c| {
+                (
+                    c.parameters.p_n_box,
+                    c.parameters.p_n_min[2],
+                    c.parameters.p_n_max[2],
+                ) = (1, 0.5, 0.5)
+            },
             "p_n_max[3] = 0.5: expected a value greater than the least one",
         ),
     ];

@@ -19,13 +19,16 @@ fn refused(change: fn(&mut ArmController)) -> String {
 
 #[test]
 fn refusals_name_the_variable_in_either_space() {
-    let positive = "expected a finite value greater than 0";
+    let positive = "expected a finite value, at least 1e-6";
     let cases: [(Change, String); 8] = [
         (
             |c| c.parameters.space = 3,
             "space = 3: expected 1 (task), 2 (joint)".into(),
         ),
-        (|c| c.parameters.joint.K = 0.0, format!("joint.K = 0: {positive}")),
+        (
+            |c| c.parameters.joint.K = 0.0,
+            format!("joint.K = 0: {positive}"),
+        ),
         (
             |c| c.parameters.joint.K_P[1] = -1.0,
             format!("joint.K_P[2] = -1: {positive}"),
@@ -39,12 +42,12 @@ fn refusals_name_the_variable_in_either_space() {
             format!("nominal.rotor[1] = 0: {positive}"),
         ),
         (
-            |c| c.parameters.nominal.I_xz[1] = 1.0,
+            |c| c.parameters.nominal.links[1].I_xz = 1.0,
             "nominal.I_xz[2] = 1: expected at most sqrt(I_xx I_zz) in absolute value".into(),
         ),
         (
             |c| c.parameters.joint.dq_n_max[1] = -1.0,
-            "joint.dq_n_max[2] = -1: expected a value greater than 0".into(),
+            "joint.dq_n_max[2] = -1: expected a finite value not less than 0".into(),
         ),
         (
             |c| {
@@ -58,7 +61,7 @@ fn refusals_name_the_variable_in_either_space() {
         assert_eq!(refused(change), expected);
         if !expected.starts_with("space") {
             let mut joint = controller(change);
-            joint.space = JOINT;
+            joint.parameters.space = JOINT;
             assert_eq!(
                 joint.initialize(0.0, &mut Log::silent()).unwrap_err().0,
                 expected
@@ -71,18 +74,18 @@ fn refusals_name_the_variable_in_either_space() {
 fn every_number_of_the_nominal_arm_arrives_in_M_n() {
     let arm = |c: &ArmController| Matrix3::from_row_slice(&c.outputs.M_n);
     let start = arm(&initialized(|c| c.parameters.space = JOINT));
-    let kinematics = ArmController::default().kinematics;
-    let q = Vector3::from(ArmController::default().q);
+    let kinematics = ArmController::default().parameters.kinematics;
+    let q = Vector3::from(ArmController::default().inputs.q);
     assert_eq!(start, NominalArm::default().at(&kinematics, &q).M);
 
     let changes: [fn(&mut ArmController, usize); 8] = [
-        |c, i| c.parameters.nominal.m[i] *= 2.0,
-        |c, i| c.parameters.nominal.x[i] += 0.1,
-        |c, i| c.parameters.nominal.z[i] += 0.1,
-        |c, i| c.parameters.nominal.I_xx[i] += 0.1,
-        |c, i| c.parameters.nominal.I_yy[i] += 0.1,
-        |c, i| c.parameters.nominal.I_zz[i] += 0.1,
-        |c, i| c.parameters.nominal.I_xz[i] += 1e-3,
+        |c, i| c.parameters.nominal.links[i].m *= 2.0,
+        |c, i| c.parameters.nominal.links[i].x += 0.1,
+        |c, i| c.parameters.nominal.links[i].z += 0.1,
+        |c, i| c.parameters.nominal.links[i].I_xx += 0.1,
+        |c, i| c.parameters.nominal.links[i].I_yy += 0.1,
+        |c, i| c.parameters.nominal.links[i].I_zz += 0.1,
+        |c, i| c.parameters.nominal.links[i].I_xz += 1e-3,
         |c, i| c.parameters.nominal.rotor[i] += 0.1,
     ];
     // Link 1 only turns about the vertical axis: what lies along it does not count.
@@ -124,7 +127,11 @@ fn a_heavy_robot_follows_and_its_error_halves_when_K_doubles() {
             let f_h = [0.0, 0.0, 6.0 * (2.5 * t).sin()];
             close_the_loop(&mut c, &mut robot, k, f_h);
             if t > 3.0 {
-                largest = c.outputs.e_q.iter().fold(largest, |most, e| most.max(e.abs()));
+                largest = c
+                    .outputs
+                    .e_q
+                    .iter()
+                    .fold(largest, |most, e| most.max(e.abs()));
             }
         }
         assert!(c.outputs.tank >= 10.0 - 1e-9, "{}", c.outputs.tank); // rounding of its sums

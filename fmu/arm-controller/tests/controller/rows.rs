@@ -2,8 +2,9 @@
 
 use crate::ArmController;
 use admittance::Law;
+use admittance::law::OFFERED_LAW;
 use arm_law::choices::{
-    DIAGNOSTIC, FAULT, FRAME, LAW, SOURCE, SPACE, STATE, TARE_FAILURE, TARE_STATE, TORQUE_LIMITING,
+    DIAGNOSTIC, FAULT, FRAME, SOURCE, SPACE, STATE, TARE_FAILURE, TARE_STATE, TORQUE_LIMITING,
 };
 use arm_law::supervision::{Diagnostic, State};
 use arm_law::wrench::{Fault, TareFailure, TareState};
@@ -42,7 +43,7 @@ fn start_values_lie_within_their_bounds_and_names_are_unique() {
     }
 }
 
-/// The names that importers rely on: none may go.
+/// docs/specification.md, section 8: what others rely on.
 #[test]
 fn the_names_that_others_rely_on_are_there() {
     let names = |wanted: fn(Causality) -> bool| -> HashSet<String> {
@@ -114,7 +115,10 @@ fn enumerations_have_the_numbers_and_names_that_the_model_knows() {
             .map(|item| (item.value, item.name))
             .collect()
     };
-    assert_eq!(items(LAW), Law::ALL.map(|law| (law.number(), law.name())));
+    let offered = Law::ALL.iter().filter(|law| law.row().offered);
+    let offered: Vec<_> = offered.map(|law| (law.number(), law.name())).collect();
+    assert_eq!(items(OFFERED_LAW), offered);
+    assert_eq!(offered.len(), Law::ALL.len() - 2); // without the two comparators, which have one axis
     assert_eq!(items(STATE), State::ALL.map(|s| (s.number(), s.name())));
     assert_eq!(
         items(DIAGNOSTIC),

@@ -47,7 +47,11 @@ fn the_nominal_s_speed_falls_as_said() {
             (c.inputs.f_h, c.parameters.law) = ([0.0, 5.0, 0.0], 1); // no reaction: the nominal alone
         });
         (0..4000).for_each(|k| tick(&mut c, k));
-        (c.outputs.dp_n[1], c.outputs.sigma_min, c.outputs.slowed != 0)
+        (
+            c.outputs.dp_n[1],
+            c.outputs.sigma_min,
+            c.outputs.slowed != 0,
+        )
     };
     let (v, _, slowed) = settled(1.7);
     assert!((v - 0.25).abs() < 1e-6 && !slowed, "{v}"); // 5/20 m/s; 4 s are 16 time constants
@@ -69,7 +73,10 @@ fn pulled_straight(singularity: Singularity) -> (f64, f64, f64) {
             [-6.0, 0.0, 0.0]
         };
         close_the_loop(&mut c, &mut robot, k, f_h);
-        assert_eq!(c.outputs.slowed != 0, c.outputs.sigma_min < singularity.sigma_slow);
+        assert_eq!(
+            c.outputs.slowed != 0,
+            c.outputs.sigma_min < singularity.sigma_slow
+        );
         least = least.min(c.outputs.sigma_min);
         most = most.max(c.outputs.G);
     }

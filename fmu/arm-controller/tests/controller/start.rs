@@ -6,11 +6,23 @@ use export::{Log, Model};
 const ZERO: [f64; 3] = [0.0; 3];
 
 fn is_at_start(c: &ArmController, p: [f64; 3]) {
-    assert_eq!((c.outputs.tau_a, c.outputs.tau_demand, c.outputs.f_a), (ZERO, ZERO, ZERO));
-    assert_eq!((c.outputs.p, c.outputs.p_n), (p, p));
-    assert_eq!((c.outputs.e_nr, c.outputs.dp_n, c.outputs.dp), (ZERO, ZERO, ZERO));
     assert_eq!(
-        (c.outputs.saturated != 0, c.outputs.engaged != 0, c.outputs.outside_bounds != 0, c.outputs.slowed != 0, c.tick),
+        (c.outputs.tau_a, c.outputs.tau_demand, c.outputs.f_a),
+        (ZERO, ZERO, ZERO)
+    );
+    assert_eq!((c.outputs.p, c.outputs.p_n), (p, p));
+    assert_eq!(
+        (c.outputs.e_nr, c.outputs.dp_n, c.outputs.dp),
+        (ZERO, ZERO, ZERO)
+    );
+    assert_eq!(
+        (
+            c.outputs.saturated != 0,
+            c.outputs.engaged != 0,
+            c.outputs.outside_bounds != 0,
+            c.outputs.slowed != 0,
+            c.tick
+        ),
         (false, false, false, false, -1)
     );
     assert_eq!((c.outputs.H, c.outputs.G, c.outputs.tank), (0.0, 0.0, 10.0));
@@ -30,7 +42,10 @@ fn after_initialization_there_is_no_torque_and_the_nominal_stands_at_the_handle(
         .expect("valid parameters");
     is_at_start(&controller, at([0.4, -1.0, 1.2]));
     tick(&mut controller, 0); // tick 0 again
-    assert_eq!((controller.outputs.e_nr, controller.outputs.engaged != 0), (ZERO, true));
+    assert_eq!(
+        (controller.outputs.e_nr, controller.outputs.engaged != 0),
+        (ZERO, true)
+    );
 }
 
 fn controller_kinematics(q: [f64; 3]) -> [f64; 3] {
@@ -45,24 +60,42 @@ fn the_first_tick_engages_where_the_handle_is_whatever_q_was_when_initialized() 
     let mut controller = initialized(|c| c.inputs.q = ZERO);
     controller.inputs.q = [0.2, -1.2, 1.6]; // an importer that wires late
     tick(&mut controller, 0);
-    assert_eq!(controller.outputs.p, controller_kinematics(controller.inputs.q));
-    assert_eq!((controller.outputs.p_n, controller.outputs.e_nr), (controller.outputs.p, ZERO));
-    assert_eq!((controller.outputs.dp, controller.outputs.tau_a), (ZERO, ZERO));
+    assert_eq!(
+        controller.outputs.p,
+        controller_kinematics(controller.inputs.q)
+    );
+    assert_eq!(
+        (controller.outputs.p_n, controller.outputs.e_nr),
+        (controller.outputs.p, ZERO)
+    );
+    assert_eq!(
+        (controller.outputs.dp, controller.outputs.tau_a),
+        (ZERO, ZERO)
+    );
     assert!(controller.outputs.engaged != 0 && controller.outputs.outside_bounds == 0);
 }
 
 #[test]
 fn until_engage_is_true_there_is_no_torque_and_then_it_starts_at_the_handle() {
-    let mut controller = initialized(|c| (c.inputs.engage, c.inputs.f_h) = (false, [0.0, 0.0, 8.0]));
+    let mut controller = initialized(|c| (c.inputs.engage, c.inputs.f_h) = (0, [0.0, 0.0, 8.0]));
     for k in 0..5 {
         controller.inputs.q[1] += 1e-4;
         tick(&mut controller, k);
-        assert_eq!((controller.outputs.tau_a, controller.outputs.e_nr), (ZERO, ZERO));
-        assert_eq!((controller.outputs.p_n, controller.outputs.engaged != 0), (controller.outputs.p, false));
+        assert_eq!(
+            (controller.outputs.tau_a, controller.outputs.e_nr),
+            (ZERO, ZERO)
+        );
+        assert_eq!(
+            (controller.outputs.p_n, controller.outputs.engaged != 0),
+            (controller.outputs.p, false)
+        );
     }
     controller.inputs.engage = 1;
     tick(&mut controller, 5);
-    assert_eq!((controller.outputs.p_n, controller.outputs.dp), (controller.outputs.p, ZERO));
+    assert_eq!(
+        (controller.outputs.p_n, controller.outputs.dp),
+        (controller.outputs.p, ZERO)
+    );
     assert!(controller.outputs.engaged != 0 && controller.outputs.f_a[2] > 0.0);
     // And out again: the stored energy is given up, none is created.
     tick(&mut controller, 6);
@@ -70,7 +103,10 @@ fn until_engage_is_true_there_is_no_torque_and_then_it_starts_at_the_handle() {
     let G = controller.outputs.G;
     controller.inputs.engage = 0;
     tick(&mut controller, 7);
-    assert_eq!((controller.outputs.tau_a, controller.outputs.e_nr), (ZERO, ZERO));
+    assert_eq!(
+        (controller.outputs.tau_a, controller.outputs.e_nr),
+        (ZERO, ZERO)
+    );
     assert_eq!(controller.outputs.H, 0.0);
     assert!(controller.outputs.G < G);
 }

@@ -34,8 +34,9 @@ fn held(c: &mut ArmController, let_go: u32, seconds: u32) -> (Vec<f64>, f64) {
 fn a_swing_that_lasts_without_the_detector_ends_with_it_and_the_damping_is_given_back() {
     let mut without = initialized(|_| ());
     let (alone, _) = held(&mut without, 12, 12);
-    let seen = &without.stiff_hand_seen;
-    assert!(!seen.detected && seen.D == [0.0; 3] && seen.k_h == [0.0; 3]);
+    let seen = &without.outputs;
+    assert!(seen.stiff_hand_detected == 0);
+    assert!(seen.stiff_hand_D == [0.0; 3] && seen.stiff_hand_k_h == [0.0; 3]);
 
     let mut with = initialized(|c| c.parameters.stiff_hand.active = 1);
     let (watched, G) = held(&mut with, 12, 12);
@@ -44,14 +45,14 @@ fn a_swing_that_lasts_without_the_detector_ends_with_it_and_the_damping_is_given
     assert!(watched[3..].iter().all(|x| *x < 0.004), "{watched:?}");
     assert!(G <= 1e-9, "{G} J"); // rounding of one addition a tick to some J
     // The hand is felt where the handle was a tick ago: cos of 1° at 2 Hz.
-    assert!((with.stiff_hand_seen.k_h[0] / 1000.0 - 1.0).abs() < 0.01);
+    assert!((with.outputs.stiff_hand_k_h[0] / 1000.0 - 1.0).abs() < 0.01);
 
     let mut let_go = initialized(|c| c.parameters.stiff_hand.active = 1);
     held(&mut let_go, 3, 3);
-    assert!(let_go.stiff_hand_seen.detected);
+    assert!(let_go.outputs.stiff_hand_detected != 0);
     let mut let_go = initialized(|c| c.parameters.stiff_hand.active = 1);
     held(&mut let_go, 3, 7); // quiet + release + half a swing are 3.5 s
-    assert!(!let_go.stiff_hand_seen.detected && let_go.stiff_hand_seen.D == [0.0; 3]);
+    assert!(let_go.outputs.stiff_hand_detected == 0 && let_go.outputs.stiff_hand_D == [0.0; 3]);
 }
 
 #[test]
@@ -75,7 +76,12 @@ fn its_parameters_are_refused_under_their_names() {
         refusal.to_string(),
         "stiff_hand.f_high = 0.5: expected a value greater than stiff_hand.f_low"
     );
-    let mut c = controller(|c| (c.parameters.stiff_hand.active, c.parameters.stiff_hand.f_high) = (true, 0.2 / T));
+    let mut c = controller(|c| {
+        (
+            c.parameters.stiff_hand.active,
+            c.parameters.stiff_hand.f_high,
+        ) = (1, 0.2 / T)
+    });
     let refusal = c.initialize(0.0, &mut Log::silent()).expect_err("refused");
     assert_eq!(
         refusal.to_string(),

@@ -10,7 +10,7 @@ use export::{Log, Model};
 /// Supervised, ready for an edge of engage after the ticks from 0 to 101.
 fn ready(change: impl FnOnce(&mut ArmController)) -> (ArmController, u32) {
     let mut c = initialized(|c| {
-        (c.parameters.supervision, c.inputs.enable, c.inputs.engage) = (true, true, false);
+        (c.parameters.supervision, c.inputs.enable, c.inputs.engage) = (1, 1, 0);
         c.parameters.supervisor.heartbeat_timeout = 0.0;
         change(c);
     });
@@ -28,7 +28,10 @@ fn engaged(f_h: [f64; 3], change: impl FnOnce(&mut ArmController)) -> (ArmContro
         close_the_loop(&mut c, &mut robot, k, f_h);
         k += 1;
     }
-    assert_eq!((c.outputs.state, c.outputs.authority), (State::Engaged.number(), 1.0));
+    assert_eq!(
+        (c.outputs.state, c.outputs.authority),
+        (State::Engaged.number(), 1.0)
+    );
     (c, robot, k)
 }
 
@@ -37,7 +40,10 @@ fn the_first_torque_is_zero_and_those_of_the_ramp_are_the_law_s_times_the_author
     let (mut c, mut k) = ready(|c| c.inputs.f_h = [3.0, -20.0, 40.0]);
     c.inputs.engage = 1;
     tick(&mut c, k);
-    assert_eq!((c.outputs.tau_a, c.outputs.engaged != 0, c.outputs.authority), ([0.0; 3], true, 0.0));
+    assert_eq!(
+        (c.outputs.tau_a, c.outputs.engaged != 0, c.outputs.authority),
+        ([0.0; 3], true, 0.0)
+    );
     let mut robot = Robot::at_the_start();
     for n in 1..=500 {
         k += 1;
@@ -53,7 +59,11 @@ fn the_first_torque_is_zero_and_those_of_the_ramp_are_the_law_s_times_the_author
             );
         }
     }
-    assert!(c.outputs.tau_a.iter().any(|tau| tau.abs() > 1.0), "{:?}", c.outputs.tau_a);
+    assert!(
+        c.outputs.tau_a.iter().any(|tau| tau.abs() > 1.0),
+        "{:?}",
+        c.outputs.tau_a
+    );
 }
 
 #[test]
@@ -64,11 +74,17 @@ fn engaging_anew_starts_from_where_the_arm_is() {
         close_the_loop(&mut c, &mut robot, k, [0.0, 0.0, 8.0]);
         k += 1;
     }
-    assert_eq!((c.outputs.state, c.outputs.tau_a), (State::Ready.number(), [0.0; 3]));
+    assert_eq!(
+        (c.outputs.state, c.outputs.tau_a),
+        (State::Ready.number(), [0.0; 3])
+    );
     robot.q[1] += 0.1;
     c.inputs.engage = 1;
     close_the_loop(&mut c, &mut robot, k, [0.0, 0.0, 8.0]);
-    assert_eq!((c.outputs.tau_a, c.outputs.e_nr, c.outputs.dp_n), ([0.0; 3], [0.0; 3], [0.0; 3]));
+    assert_eq!(
+        (c.outputs.tau_a, c.outputs.e_nr, c.outputs.dp_n),
+        ([0.0; 3], [0.0; 3], [0.0; 3])
+    );
 }
 
 #[test]
@@ -77,7 +93,10 @@ fn an_emergency_stop_takes_the_torque_of_its_tick() {
     assert!(c.outputs.tau_a[1].abs() > 1.0);
     c.inputs.emergency_stop = 1;
     close_the_loop(&mut c, &mut robot, k, [0.0, 0.0, 8.0]);
-    assert_eq!((c.outputs.tau_a, c.outputs.state), ([0.0; 3], State::Fault.number()));
+    assert_eq!(
+        (c.outputs.tau_a, c.outputs.state),
+        ([0.0; 3], State::Fault.number())
+    );
     assert_eq!(c.outputs.first_fault, Diagnostic::EmergencyStop.number());
 }
 
@@ -129,7 +148,10 @@ fn a_result_that_is_not_finite_is_a_fault_with_a_name_and_no_error() {
         k += 1;
     }
     let p = Kinematics::default().at(&robot.q).p;
-    assert_eq!((c.outputs.tau_a, c.outputs.state), ([0.0; 3], State::Fault.number()));
+    assert_eq!(
+        (c.outputs.tau_a, c.outputs.state),
+        ([0.0; 3], State::Fault.number())
+    );
     assert_eq!(c.outputs.diagnostic, Diagnostic::NotFinite.number());
     assert_eq!(c.outputs.first_fault, Diagnostic::NotFinite.number());
     assert_eq!((c.outputs.p, c.outputs.p_n), (p.into(), p.into())); // it rests where the arm is
@@ -139,7 +161,10 @@ fn a_result_that_is_not_finite_is_a_fault_with_a_name_and_no_error() {
     assert_eq!(c.outputs.diagnostic, Diagnostic::NotAcknowledged.number());
     c.inputs.acknowledge = 1;
     tick(&mut c, k + 1);
-    assert_eq!((c.outputs.state, c.outputs.first_fault), (State::Off.number(), 0));
+    assert_eq!(
+        (c.outputs.state, c.outputs.first_fault),
+        (State::Off.number(), 0)
+    );
 }
 
 #[test]
@@ -176,9 +201,16 @@ fn without_supervision_its_inputs_do_nothing() {
             .collect::<Vec<_>>()
     };
     let spoilt = run(|c| {
-        (c.inputs.enable, c.inputs.acknowledge, c.inputs.emergency_stop) = (true, true, true);
+        (
+            c.inputs.enable,
+            c.inputs.acknowledge,
+            c.inputs.emergency_stop,
+        ) = (1, 1, 1);
         c.inputs.encoder_valid = 0;
-        (c.parameters.supervisor.hold_enter, c.parameters.supervisor.hold_leave) = (100.0, 100.0);
+        (
+            c.parameters.supervisor.hold_enter,
+            c.parameters.supervisor.hold_leave,
+        ) = (100.0, 100.0);
     });
     assert!(run(|_| ()) == spoilt);
 }

@@ -20,5 +20,8 @@ fn odd_step_sizes_run_the_same_ticks_as_one_step_a_tick() {
     between.inputs.f_h = [-100.0; 3];
     between.inputs.q = [0.0; 3];
     step(&mut between, 119, 0.00025);
-    assert_eq!((between.outputs.tau_a, between.outputs.p), (reference.outputs.tau_a, reference.outputs.p));
+    assert_eq!(
+        (between.outputs.tau_a, between.outputs.p),
+        (reference.outputs.tau_a, reference.outputs.p)
+    );
 }

@@ -6,7 +6,8 @@ use export::{Log, Model};
 /// Pushed down onto something that does not give way, until the spring is at its bound.
 fn pushed() -> ArmController {
     let mut controller = initialized(|c| {
-        (c.inputs.f_h, c.parameters.f_max, c.parameters.tuning_time) = ([0.0, 0.0, -10.0], [200.0; 3], 0.0);
+        (c.inputs.f_h, c.parameters.f_max, c.parameters.tuning_time) =
+            ([0.0, 0.0, -10.0], [200.0; 3], 0.0);
     });
     (0..5000).for_each(|k| tick(&mut controller, k));
     controller
@@ -29,7 +30,8 @@ fn a_lower_f_max_acts_at_the_next_tick() {
 fn tuning_does_not_raise_the_stored_energy() {
     let mut c = pushed();
     let before = c.clone();
-    (c.parameters.K, c.parameters.K_P, c.parameters.Lambda_n) = ([3000.0; 3], [100.0; 3], [50.0; 3]);
+    (c.parameters.K, c.parameters.K_P, c.parameters.Lambda_n) =
+        ([3000.0; 3], [100.0; 3], [50.0; 3]);
     c.tune(&mut Log::silent()).expect("valid gains");
     tick(&mut c, 5000);
     assert!(c.outputs.G <= before.outputs.G);
@@ -64,7 +66,7 @@ fn a_refused_gain_leaves_the_law_as_it_was() {
     tuned.parameters.K[1] = -1.0;
     assert_eq!(
         tuned.tune(&mut Log::silent()).expect_err("negative").0,
-        "K[2] = -1: expected a finite value greater than 0"
+        "K[2] = -1: expected a finite value, at least 1e-6"
     );
     tuned.parameters.K = untouched.parameters.K; // as the C interface restores it
     for k in 0..10 {
@@ -79,7 +81,10 @@ fn gain_warning_is_that_of_the_axis_that_needs_it() {
     assert_eq!(initialized(|_| ()).gain_warning, 0);
     // K T/M_min = 0.25 at K = 3500 N·s/m, M_min/10 = 1.4 kg.
     assert_eq!(initialized(|c| c.parameters.K[1] = 3600.0).gain_warning, 1);
-    assert_eq!(initialized(|c| c.parameters.Lambda_n[2] = 1.0).gain_warning, 2);
+    assert_eq!(
+        initialized(|c| c.parameters.Lambda_n[2] = 1.0).gain_warning,
+        2
+    );
     let mut c = initialized(|c| (c.parameters.K[0], c.parameters.Lambda_n[2]) = (3600.0, 1.0));
     assert_eq!(c.gain_warning, 3);
     c.parameters.K = [1000.0; 3];

@@ -6,6 +6,7 @@
 
 use admittance::bounds::boxed;
 use admittance::parameters::{check, limit};
+use admittance::retune::Gradual;
 use admittance::{Bounds, Gains, ParameterError, Real};
 use declaration::range::{NOT_NEGATIVE, POSITIVE};
 use declaration::{Rows, Start};
@@ -32,10 +33,8 @@ impl Default for JointGains {
     }
 }
 
-impl JointGains {
-    /// These gains one tick further on the straight way to `wanted`, of which `remaining` ticks are left (at least 1).
-    #[must_use]
-    pub fn toward(&self, wanted: &Self, remaining: u32) -> Self {
+impl Gradual for JointGains {
+    fn toward(&self, wanted: &Self, remaining: u32) -> Self {
         let joints = [0, 1, 2].map(|i| self.of(i).toward(&wanted.of(i), remaining));
         Self {
             D_n: Vector3::from(joints.map(|joint| joint.D_n)),
@@ -44,7 +43,9 @@ impl JointGains {
             tau_max: Vector3::from(joints.map(|joint| joint.f_max)),
         }
     }
+}
 
+impl JointGains {
     /// Joint `i` (from 0) for the rules of one axis. They look at ratios of masses, and M_n does not change with the gains.
     pub(super) fn of(&self, i: usize) -> Gains {
         Gains {

@@ -6,32 +6,31 @@
 use super::boxed::Solution;
 use super::midpoint::{self, Sample};
 use super::{JointGains, stored};
-use crate::kinematics::Kinematics;
+use crate::kinematics::{Kinematics, SinCos, sin_cos};
 use crate::nominal::transport::transported;
 use crate::nominal::{NominalArm, RigidBody};
 use admittance::bounds::{Bounds, Interval};
 use admittance::law::{Felt, Spring};
-use admittance::ledger::{Keep, Stored};
+use admittance::motion::Sampling;
 use admittance::real::{floored, sat};
+use admittance::retune::Tuning;
+use admittance::settling::{Keep, Stored};
+use admittance::tick::{Coordinates, Tick};
 use admittance::{Motion, ParameterError, Real, Settings};
 use nalgebra::{Matrix3, Vector3};
 
 /// The law in joint space between two ticks. It starts out of the loop; the first tick engages it with q_n = q, v_n = 0.
 ///
 /// M_n(q) ddq_n + (C_n(q, dq) + D_n) dq_n = tau_h − alpha y,  y = de_nr + K_P e_nr,  tau_a = K y   eq:obs_dyn, eq:dob_input
-///
-/// A tick: [`sense`](Joints::sense) → the caller settles its ledger, perhaps [`reduced`](Stored::reduced) →
-/// [`propose`](Sensed::propose) → the caller's limits → [`commit`](Joints::commit).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Joints {
     settings: Settings,
+    sampling: Sampling,
+    tuning_ticks: u32,
     arm: NominalArm,
     kinematics: Kinematics,
-    gains: JointGains,
-    wanted: JointGains,
-    /// ticks until the gains are those wanted
-    remaining: u32,
+    tuning: Tuning<JointGains>,
     bounds: [Bounds; 3],
     state: Option<State>,
 }
@@ -47,14 +46,22 @@ struct State {
     motion: [Motion; 3],
 }
 
+/// Joint angles, with sines and cosines.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Angles {
+    q: Vector3<Real>,
+    sin_cos: SinCos,
+}
+
 /// The joints at a tick, once the position is known: what they store, before they act.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sensed {
     gains: JointGains,
-    remaining: u32,
-    bounds: [Bounds; 3],
-    state: State,
+    q: Vector3<Real>,
+    body: RigidBody,
+    motion: [Motion; 3],
     e: Vector3<Real>,
+    v_n: Vector3<Real>,
 }
 
 /// What is asked of the joints at a tick, beside their inputs.
@@ -83,34 +90,27 @@ impl Default for JointRequest {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[must_use]
 pub struct Proposal {
-    gains: JointGains,
-    remaining: u32,
+    sensed: Sensed,
     intervals: [Interval; 3],
-    state: State,
     sample: Sample,
     wish: Solution,
     tau_demand: Vector3<Real>,
 }
 
-/// What the joints did at a tick; every value is the one at t_k.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Committed {
-    /// K y before any limit, N·m.
-    pub tau_demand: Vector3<Real>,
-    /// Nominal position q + e_nr, rad.
-    pub q_n: Vector3<Real>,
-    /// Nominal velocity, rad/s.
-    pub dq_n: Vector3<Real>,
-    /// q_n − q after the slip, rad.
-    pub e_nr: Vector3<Real>,
-    /// The robot's velocity as the law used it, rad/s.
-    pub dq: Vector3<Real>,
-    /// M_n(q), kg·m².
-    pub M_n: Matrix3<Real>,
-    /// Whether one of the bounds, or hold, kept a joint of the nominal back.
-    pub held: bool,
-    /// Energy (k/alpha) tau_h·v_m T that the human's port brings in the sample that begins, J. Not finite for alpha = 0.
-    pub supplied: Real,
+impl Angles {
+    /// The angles `q` (rad).
+    pub fn new(q: &Vector3<Real>) -> Self {
+        Self::with(q, &sin_cos(q))
+    }
+
+    /// The angles `q` (rad), whose sines and cosines are known.
+    #[inline]
+    pub(crate) fn with(q: &Vector3<Real>, sin_cos: &SinCos) -> Self {
+        Self {
+            q: *q,
+            sin_cos: *sin_cos,
+        }
+    }
 }
 
 impl Joints {
@@ -130,11 +130,11 @@ impl Joints {
         gains.check()?;
         Ok(Self {
             settings,
+            sampling: Sampling::new(&settings),
+            tuning_ticks: settings.tuning_ticks(),
             arm,
             kinematics,
-            gains,
-            wanted: gains,
-            remaining: 0,
+            tuning: Tuning::new(gains),
             bounds: [Bounds::default(); 3],
             state: None,
         })
@@ -158,124 +158,203 @@ impl Joints {
     /// The first gain out of its range; the gains stay as they were.
     pub fn tune(&mut self, gains: JointGains) -> Result<(), ParameterError> {
         gains.check()?;
-        if gains != self.wanted {
-            self.wanted = gains;
-            self.remaining = self.settings.tuning_ticks().max(1);
+        self.tuning.want(gains, self.tuning_ticks);
+        if self.state.is_none() {
+            self.tuning.finish();
         }
         Ok(())
     }
 
-    /// The joints at a tick with angles `q` (rad): v_n is carried along the motion since the last tick, the springs
-    /// slip, gains on their way take over.
-    #[must_use]
-    pub fn sense(&self, q: &Vector3<Real>) -> Sensed {
-        let body = self.arm.at(&self.kinematics, q);
+    /// M_n at the angles of which sines and cosines are given, kg·m².
+    pub(crate) fn M_n(&self, sin_cos: &SinCos) -> Matrix3<Real> {
+        self.arm.turned(&self.kinematics, sin_cos).M
+    }
+
+    /// Where the handle is.
+    pub(crate) fn kinematics(&self) -> &Kinematics {
+        &self.kinematics
+    }
+}
+
+impl Coordinates<3> for Joints {
+    type Place = Angles;
+    type Request = JointRequest;
+    type Sensed = Sensed;
+    type Proposal = Proposal;
+    type Driven = Solution;
+
+    fn settings(&self) -> &Settings {
+        &self.settings
+    }
+
+    fn is_engaged(&self) -> bool {
+        self.state.is_some()
+    }
+
+    /// v_n is carried along the motion since the last tick, the springs slip, gains on their way take over.
+    fn sense(&self, Angles { q, sin_cos }: &Angles) -> Sensed {
+        let law = self.settings.law;
+        let body = self.arm.turned(&self.kinematics, sin_cos);
+        let sensed = |motion: &[Motion; 3]| {
+            let joint = |i: usize| motion[i].sensed(q[i], &self.sampling);
+            [joint(0), joint(1), joint(2)]
+        };
+        let mut gains = *self.tuning.now();
         let Some(last) = &self.state else {
-            let motion = Motion::default();
-            let state = State {
+            return Sensed {
+                gains,
                 q: *q,
                 body,
-                q_n: *q,
-                v_n: Vector3::zeros(),
-                motion: [0, 1, 2].map(|i| motion.sensed(q[i], &self.settings)),
-            };
-            return Sensed {
-                gains: self.wanted,
-                remaining: 0,
-                bounds: self.bounds,
-                state,
+                motion: sensed(&[Motion::default(); 3]),
                 e: Vector3::zeros(),
+                v_n: Vector3::zeros(),
             };
         };
-        let gains = self.gains.toward(&self.wanted, self.remaining);
-        let v_n = transported(&last.body, &body, &(q - last.q), &last.v_n);
-        let (e, v_n) = stored::taken_over(
-            self.settings.law,
-            &self.gains,
-            &gains,
-            &stored::slipped(self.settings.law, &self.gains, &(last.q_n - q)),
-            &v_n,
-        );
-        let state = State {
-            q: *q,
-            body,
-            v_n,
-            motion: [0, 1, 2].map(|i| last.motion[i].sensed(q[i], &self.settings)),
-            ..*last
-        };
+        let mut v_n = transported(&last.body, &body, &(q - last.q), &last.v_n);
+        let mut e = stored::slipped(law, &gains, &(last.q_n - q));
+        if let Some(next) = self.tuning.next() {
+            (e, v_n) = stored::taken_over(law, &gains, &next, &e, &v_n);
+            gains = next;
+            e = stored::slipped(law, &gains, &e);
+        }
         Sensed {
             gains,
-            remaining: self.remaining.saturating_sub(1),
-            bounds: self.bounds,
-            state,
-            e: stored::slipped(self.settings.law, &gains, &e),
+            q: *q,
+            body,
+            motion: sensed(&last.motion),
+            e,
+            v_n,
         }
     }
 
-    /// The nominal moves on, while the robot gets the torques `tau` (N·m): what the caller's limits left of
-    /// [`Proposal::tau`].
-    ///
-    /// Under `passive_applied` and `passive_bounded` the nominal feels `tau`, under `passive` the whole y, under
-    /// `standard` nothing.
-    pub fn commit(&mut self, proposal: Proposal, tau: &Vector3<Real>) -> Committed {
-        let Settings { law, alpha, T, .. } = self.settings;
-        let Solution { v_m, held } = proposal.solution(tau, &self.settings);
-        let Proposal {
+    fn propose(&self, sensed: &Sensed, tau_h: &Vector3<Real>, request: &JointRequest) -> Proposal {
+        let (alpha, T) = (self.settings.reaction(), self.settings.T);
+        let Sensed {
             gains,
-            state,
+            q,
+            body,
+            motion,
+            e,
+            v_n,
+        } = sensed;
+        let intervals = [0, 1, 2].map(|i| {
+            self.bounds[i]
+                .interval(q[i] + e[i], T, request.hold)
+                .no_faster_than(request.speed[i])
+        });
+        let sample = Sample {
+            M_n: body.M,
+            D_n: Matrix3::from_diagonal(&gains.D_n) + request.damping,
+            e: *e,
+            v_n: *v_n,
+            dq: Vector3::from([0, 1, 2].map(|i| motion[i].dq())),
+            tau_h: *tau_h,
+        };
+        let wish = midpoint::coupled(gains, alpha, T, &sample, &intervals);
+        let y = midpoint::coupling(gains, T, &sample, &wish.v_m);
+        Proposal {
+            tau_demand: y * gains.K,
+            sensed: *sensed,
+            intervals,
+            sample,
+            wish,
+        }
+    }
+
+    /// K y of each joint within ±tau_max where the nominal feels what is delivered, else K y, which the caller's limits may
+    /// cut as they like.
+    fn f(&self, proposal: &Proposal) -> Vector3<Real> {
+        match self.settings.law.row().felt {
+            Felt::Delivered => {
+                let tau_max = &proposal.sensed.gains.tau_max;
+                proposal.tau_demand.zip_map(tau_max, sat)
+            }
+            Felt::Nothing | Felt::Coupling => proposal.tau_demand,
+        }
+    }
+
+    fn driven(&self, proposal: &Proposal, tau: &Vector3<Real>) -> Solution {
+        let Proposal {
+            sensed,
+            intervals,
+            sample,
+            wish,
+            tau_demand,
+        } = proposal;
+        match self.settings.law.row().felt {
+            Felt::Delivered if tau != tau_demand => {
+                let (alpha, T) = (self.settings.reaction(), self.settings.T);
+                midpoint::driven(alpha, T, sample, &(tau / sensed.gains.K), intervals)
+            }
+            Felt::Delivered | Felt::Coupling | Felt::Nothing => *wish,
+        }
+    }
+
+    /// −ΔH + (k/alpha) tau_h·v_m T ≥ tau·v_m T + (k/alpha) v_mᵀ D_n v_m T + ½ k eᵀ K_P e
+    fn taken(&self, proposal: &Proposal, tau: &Vector3<Real>) -> Real {
+        let Settings { law, alpha, T, .. } = self.settings;
+        let Proposal { sensed, sample, .. } = proposal;
+        let v_m = self.driven(proposal, tau).v_m;
+        let damped = v_m.dot(&(sample.D_n * v_m));
+        tau.dot(&v_m) * T
+            + sensed.gains.K / alpha * damped * T
+            + stored::springs(law, &sensed.gains, &sample.e)
+    }
+
+    fn supplied(&self, proposal: &Proposal, driven: &Solution) -> Real {
+        let Settings { alpha, T, .. } = self.settings;
+        let Proposal { sensed, sample, .. } = proposal;
+        sensed.gains.K / alpha * sample.tau_h.dot(&driven.v_m) * T
+    }
+
+    fn show(&self, proposal: &Proposal, driven: &Solution, tick: &mut Tick<3>) {
+        let Sample { e, v_n, dq, .. } = &proposal.sample;
+        tick.f_demand = proposal.tau_demand;
+        tick.q_n = e + proposal.sensed.q;
+        tick.dq_n = *v_n;
+        tick.e_nr = *e;
+        tick.dq = *dq;
+        tick.held = driven.held.iter().any(|held| *held);
+    }
+
+    fn commit(&mut self, proposal: &Proposal, driven: &Solution, tau: &Vector3<Real>) {
+        let Settings { law, T, .. } = self.settings;
+        let Proposal {
+            sensed:
+                Sensed {
+                    gains,
+                    q,
+                    body,
+                    motion,
+                    ..
+                },
             sample,
             tau_demand,
             ..
         } = proposal;
-        let (q_n, v_n) = (sample.e + state.q, sample.v_n);
-        let mut next = slower(&state.body, v_m * 2.0 - v_n, &v_m, &held);
+        let Solution { v_m, held } = driven;
+        let mut v_n = slower(body, v_m * 2.0 - sample.v_n, v_m, held);
         match law.row().spring {
-            Spring::Slips if *tau != tau_demand => {
-                let v_b = midpoint::at_the_bound(&gains, T, &sample, &(tau / gains.K));
-                let limited = tau.zip_map(&tau_demand, |tau, asked| tau != asked);
-                next = slower(&state.body, next, &v_b, &limited);
+            Spring::Slips if tau != tau_demand => {
+                let v_b = midpoint::at_the_bound(gains, T, sample, &(tau / gains.K));
+                let limited = tau.zip_map(tau_demand, |tau, asked| tau != asked);
+                v_n = slower(body, v_n, &v_b, &limited);
             }
             Spring::Slips | Spring::Limited | Spring::Free => {}
         }
-        self.gains = gains;
-        self.remaining = proposal.remaining;
+        self.tuning.pass(gains);
         self.state = Some(State {
-            q_n: q_n + v_m * T,
-            v_n: next.map(floored),
-            ..state
+            q: *q,
+            body: *body,
+            q_n: sample.e + q + v_m * T,
+            v_n: v_n.map(floored),
+            motion: *motion,
         });
-        Committed {
-            tau_demand,
-            q_n,
-            dq_n: v_n,
-            e_nr: sample.e,
-            dq: sample.dq,
-            M_n: sample.M_n,
-            held: held.iter().any(|held| *held),
-            supplied: gains.K / alpha * sample.tau_h.dot(&v_m) * T,
-        }
     }
 
-    /// Out of the loop: nothing stored. The next tick engages anew.
-    pub fn rest(&mut self) {
-        self.gains = self.wanted;
-        self.remaining = 0;
+    fn rest(&mut self) {
+        self.tuning.finish();
         self.state = None;
-    }
-
-    /// M_n at joint angles `q` (rad), kg·m².
-    pub fn M_n(&self, q: &Vector3<Real>) -> Matrix3<Real> {
-        self.arm.at(&self.kinematics, q).M
-    }
-
-    /// Whether they are in the loop.
-    pub fn is_engaged(&self) -> bool {
-        self.state.is_some()
-    }
-
-    /// What stays fixed during a run.
-    pub fn settings(&self) -> &Settings {
-        &self.settings
     }
 }
 
@@ -303,107 +382,15 @@ impl Stored for Sensed {
     }
 
     fn masses(&self, settings: &Settings) -> Real {
-        self.gains.K * (self.state.body.kinetic(&self.state.v_n) / settings.alpha)
+        self.gains.K * (self.body.kinetic(&self.v_n) / settings.alpha)
     }
 
     fn spring(&self, settings: &Settings) -> Real {
         stored::springs(settings.law, &self.gains, &self.e)
     }
 
-    fn reduced(&self, keep: Keep) -> Self {
-        let mut reduced = *self;
-        reduced.e *= keep.e;
-        reduced.state.v_n *= keep.v_n;
-        reduced
-    }
-}
-
-impl Sensed {
-    /// What the joints ask for with the human's torques `tau_h` (N·m): nominal and coupling are solved together, within
-    /// the bounds.
-    pub fn propose(
-        &self,
-        tau_h: &Vector3<Real>,
-        request: &JointRequest,
-        settings: &Settings,
-    ) -> Proposal {
-        let Self {
-            gains,
-            remaining,
-            bounds,
-            state,
-            e,
-        } = *self;
-        let (alpha, T) = (settings.reaction(), settings.T);
-        let intervals = [0, 1, 2].map(|i| {
-            bounds[i]
-                .interval(state.q[i] + e[i], T, request.hold)
-                .no_faster_than(request.speed[i])
-        });
-        let sample = Sample {
-            M_n: state.body.M,
-            D_n: Matrix3::from_diagonal(&gains.D_n) + request.damping,
-            e,
-            v_n: state.v_n,
-            dq: Vector3::from(state.motion.map(|motion| motion.dq())),
-            tau_h: *tau_h,
-        };
-        let wish = midpoint::coupled(&gains, alpha, T, &sample, &intervals);
-        let y = midpoint::coupling(&gains, T, &sample, &wish.v_m);
-        Proposal {
-            gains,
-            remaining,
-            intervals,
-            state,
-            sample,
-            wish,
-            tau_demand: y * gains.K,
-        }
-    }
-}
-
-impl Proposal {
-    /// K y before any limit, N·m.
-    pub fn tau_demand(&self) -> &Vector3<Real> {
-        &self.tau_demand
-    }
-
-    /// What the joints ask for, N·m: K y of each joint within ±tau_max where the nominal feels what is delivered, else K y,
-    /// which the caller's limits may cut as they like.
-    pub fn tau(&self, settings: &Settings) -> Vector3<Real> {
-        match settings.law.row().felt {
-            Felt::Delivered => self.tau_demand.zip_map(&self.gains.tau_max, sat),
-            Felt::Nothing | Felt::Coupling => self.tau_demand,
-        }
-    }
-
-    /// v_m if the robot gets the torques `tau` (N·m).
-    fn solution(&self, tau: &Vector3<Real>, settings: &Settings) -> Solution {
-        match settings.law.row().felt {
-            Felt::Delivered if *tau != self.tau_demand => {
-                let (alpha, T) = (settings.reaction(), settings.T);
-                midpoint::driven(
-                    alpha,
-                    T,
-                    &self.sample,
-                    &(tau / self.gains.K),
-                    &self.intervals,
-                )
-            }
-            Felt::Delivered | Felt::Coupling | Felt::Nothing => self.wish,
-        }
-    }
-
-    /// Energy (J) that the law is sure to take in the sample that begins, if the robot gets the torques `tau` (N·m) under
-    /// `passive_bounded`: what the human brings less what the nominal keeps, its damping, and the springs, which can be
-    /// given up afterwards.
-    ///
-    /// −ΔH + (k/alpha) tau_h·v_m T ≥ tau·v_m T + (k/alpha) v_mᵀ D_n v_m T + ½ k eᵀ K_P e
-    pub fn taken(&self, tau: &Vector3<Real>, settings: &Settings) -> Real {
-        let v_m = self.solution(tau, settings).v_m;
-        let damped = v_m.dot(&(self.sample.D_n * v_m));
-        tau.dot(&v_m) * settings.T
-            + self.gains.K / settings.alpha * damped * settings.T
-            + stored::springs(settings.law, &self.gains, &self.sample.e)
+    fn reduce(&mut self, keep: Keep) {
+        self.e *= keep.e;
+        self.v_n *= keep.v_n;
     }
 }

@@ -1,17 +1,18 @@
-//! One tick of the law in joint space, with its ledger: what [`TaskSpace`](crate::task_space::TaskSpace) is at the handle.
+//! One tick of the law in joint space: what [`TaskSpace`](crate::task_space::TaskSpace) is at the handle.
 //!
 //! Coordinates, torques and ledger are all the joints', so the work tau·Δq is exact as it stands.
 
-use super::{Committed, JointGains, JointRequest, Joints};
-use crate::kinematics::{Kinematics, Pose};
-use crate::limits::Limits;
+use super::joints::Angles;
+use super::{JointGains, JointRequest, Joints};
+use crate::handle::{HandleTick, NotFinite};
+use crate::kinematics::{Kinematics, Pose, sin_cos};
+use crate::limits::{AtTheJoints, Limits};
 use crate::nominal::NominalArm;
-use crate::task_space::Outcome;
-use admittance::budget::share_of_the_way;
+use admittance::tick::{Inputs, Sampled, Tick};
 use admittance::{Bounds, Ledger, ParameterError, Reach, Real, Request, Settings};
 use nalgebra::{Matrix3, Vector3};
 
-/// What the law in joint space is built from, beside what both forms share.
+/// What the law in joint space is built from, beside what both spaces have.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct JointParameters {
@@ -27,12 +28,8 @@ pub struct JointParameters {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct JointSpace {
-    joints: Joints,
-    kinematics: Kinematics,
-    ledger: Ledger<3>,
+    sampled: Sampled<Joints, 3>,
     limits: Limits,
-    /// what the last tick said, N·m
-    tau: Vector3<Real>,
 }
 
 /// The nominal in joint coordinates at a tick.
@@ -78,11 +75,8 @@ impl JointSpace {
         let mut joints = Joints::new(settings, arm, kinematics, JointGains { tau_max, ..gains })?;
         joints.bound(bounds)?;
         Ok(Self {
-            joints,
-            kinematics,
-            ledger: Ledger::new(&settings, reach),
+            sampled: Sampled::new(joints, &reach)?.rated(&limits.tau_rate)?,
             limits,
-            tau: Vector3::zeros(),
         })
     }
 
@@ -92,123 +86,119 @@ impl JointSpace {
     /// The first gain out of its range; the gains stay as they were.
     pub fn tune(&mut self, gains: JointGains) -> Result<(), ParameterError> {
         let tau_max = self.limits.tau_max;
-        self.joints.tune(JointGains { tau_max, ..gains })
+        self.sampled.law_mut().tune(JointGains { tau_max, ..gains })
     }
 
-    /// One tick at joint angles `q` (rad), where the handle is at `pose`, with the human's force `f_h` (N, base frame).
+    /// One tick at joint angles `q` (rad), where the handle is at `pose`, with the human's force `f_h` (N, base frame). The
+    /// nominal is `shown` also as the handle that it amounts to.
     ///
-    /// The speed that is requested is the joints', rad/s. Damping that is requested at the handle acts on the joints as d JᵀJ with d the largest of the three axes: alike in
-    /// all directions, which keeps yaw and pitch apart.
+    /// The speed that is requested is the joints', rad/s. Damping that is requested at the handle acts on the joints as d JᵀJ
+    /// with d the largest of the three axes: alike in all directions, which keeps yaw and pitch apart.
+    ///
+    /// # Errors
+    /// A result that is not finite: the law is as it was.
     pub fn step(
         &mut self,
         pose: &Pose,
         q: &Vector3<Real>,
         f_h: &Vector3<Real>,
         request: &Request<3>,
-    ) -> (Outcome, Nominal) {
-        let settings = *self.joints.settings();
-        let (ledger, sensed) = self.ledger.settle(self.joints.sense(q), &settings, q);
-        let ledger = if self.joints.is_engaged() {
-            ledger
-        } else {
-            ledger.without_motion()
+        shown: &mut HandleTick,
+        nominal: &mut Nominal,
+    ) -> Result<(), NotFinite> {
+        let kinematics = *self.sampled.law().kinematics();
+        let inputs = Inputs {
+            place: &Angles::with(q, &pose.sin_cos),
+            q,
+            f_h: &pose.J.tr_mul(f_h),
+            authority: request.authority(),
+            request: &JointRequest {
+                hold: request.hold,
+                speed: request.speed,
+                damping: at_the_joints(pose, request.damping.max()),
+            },
         };
-        let of_joints = JointRequest {
-            hold: request.hold,
-            speed: request.speed,
-            damping: at_the_joints(pose, request.damping.max()),
+        let accept = |tick: &Tick<3>, G: Real| {
+            show(&kinematics, pose, tick, shown);
+            nominal.q_n = tick.q_n;
+            nominal.dq_n = tick.dq_n;
+            nominal.e_nr = tick.e_nr;
+            shown.is_finite() && G.is_finite()
         };
-        let proposal = sensed.propose(&pose.J.tr_mul(f_h), &of_joints, &settings);
-
-        let asked = proposal.tau(&settings) * request.share();
-        let delivered = self.limits.deliver(&asked);
-        let tau = self.rated(delivered.tau, settings.T);
-        let share = ledger.share(&tau, |s| proposal.taken(&(tau * s), &settings));
-        let tau = if share < 1.0 { tau * share } else { tau };
-
-        let done = self.joints.commit(proposal, &tau);
-        self.ledger = ledger.opened(&tau, done.supplied);
-        self.tau = tau;
-        self.shown(pose, &done, share)
-    }
-
-    /// What a tick shows: the nominal also as the handle that it amounts to.
-    fn shown(&self, pose: &Pose, done: &Committed, share: Real) -> (Outcome, Nominal) {
-        let tau = &self.tau;
-        let nominal = self.kinematics.at(&done.q_n);
-        let outcome = Outcome {
-            f_a: force(pose, tau),
-            tau: *tau,
-            tau_demand: done.tau_demand,
-            p_n: nominal.p,
-            dp_n: nominal.J * done.dq_n,
-            e_nr: nominal.p - pose.p,
-            dp: pose.J * done.dq,
-            saturated: *tau != done.tau_demand,
-            held: done.held,
-            share,
-            outside_bounds: self.ledger.is_outside(),
-            engaged: true,
-        };
-        let joints = Nominal {
-            q_n: done.q_n,
-            dq_n: done.dq_n,
-            e_nr: done.e_nr,
-            M_n: done.M_n,
-        };
-        (outcome, joints)
-    }
-
-    /// As far towards the torques `tau` (N·m) as their rate allows.
-    fn rated(&self, tau: Vector3<Real>, T: Real) -> Vector3<Real> {
-        let way = share_of_the_way(&self.tau, &tau, &(self.limits.tau_rate * T));
-        if way < 1.0 {
-            self.tau + (tau - self.tau) * way
-        } else {
-            tau
-        }
+        self.sampled
+            .tick(&inputs, &AtTheJoints(&self.limits), accept)?;
+        nominal.M_n = self.sampled.law().M_n(&pose.sin_cos);
+        Ok(())
     }
 
     /// One tick out of the loop: no torque, the nominal where the robot is. The energy that was stored is given up; the next
     /// [`step`](Self::step) engages anew.
-    pub fn rest(&mut self, pose: &Pose, q: &Vector3<Real>) -> (Outcome, Nominal) {
-        self.ledger = self.ledger.settled(0.0, q);
-        self.out_of_the_loop(pose, q)
+    ///
+    /// # Errors
+    /// A result that is not finite: the law is as it was.
+    pub fn rest(
+        &mut self,
+        pose: &Pose,
+        q: &Vector3<Real>,
+        shown: &mut HandleTick,
+        nominal: &mut Nominal,
+    ) -> Result<(), NotFinite> {
+        let outside = self.sampled.rest(q, |G| {
+            G.is_finite() && HandleTick::at_rest(&pose.p, false).is_finite()
+        })?;
+        self.show_rest(pose, q, outside, shown, nominal);
+        Ok(())
     }
 
     /// The same where the robot's angles at this tick are not known, or no numbers: the tank pays for the most that the
     /// torques can have done since the last one. `q` (rad) and `pose` are the last that were known.
-    pub fn abandon(&mut self, pose: &Pose, q: &Vector3<Real>) -> (Outcome, Nominal) {
-        self.ledger = self.ledger.unseen();
-        self.out_of_the_loop(pose, q)
+    pub fn abandon(
+        &mut self,
+        pose: &Pose,
+        q: &Vector3<Real>,
+        shown: &mut HandleTick,
+        nominal: &mut Nominal,
+    ) {
+        let outside = self.sampled.abandon();
+        self.show_rest(pose, q, outside, shown, nominal);
     }
 
-    fn out_of_the_loop(&mut self, pose: &Pose, q: &Vector3<Real>) -> (Outcome, Nominal) {
-        let zeros = Vector3::zeros();
-        self.joints.rest();
-        self.ledger = self.ledger.opened(&zeros, 0.0);
-        self.tau = zeros;
-        let outcome = Outcome {
-            f_a: zeros,
-            tau: zeros,
-            tau_demand: zeros,
-            p_n: pose.p,
-            dp_n: zeros,
-            e_nr: zeros,
-            dp: zeros,
-            saturated: false,
-            held: false,
-            share: 1.0,
-            outside_bounds: self.ledger.is_outside(),
-            engaged: false,
-        };
-        (outcome, Nominal::at(q, self.joints.M_n(q)))
+    fn show_rest(
+        &self,
+        pose: &Pose,
+        q: &Vector3<Real>,
+        outside: bool,
+        shown: &mut HandleTick,
+        nominal: &mut Nominal,
+    ) {
+        *shown = HandleTick::at_rest(&pose.p, outside);
+        *nominal = Nominal::at(q, self.sampled.law().M_n(&pose.sin_cos));
     }
 
     /// Energy stored and created, as of the last tick.
     pub fn ledger(&self) -> &Ledger<3> {
-        &self.ledger
+        self.sampled.ledger()
     }
+}
+
+/// The tick at the handle, which is at `pose`.
+fn show(kinematics: &Kinematics, pose: &Pose, tick: &Tick<3>, shown: &mut HandleTick) {
+    let nominal = sin_cos(&tick.q_n);
+    let p_n = kinematics.p(&nominal);
+    *shown = HandleTick {
+        f_a: force(pose, &tick.tau),
+        tau: tick.tau,
+        tau_demand: tick.f_demand,
+        p_n,
+        dp_n: kinematics.J(&nominal) * tick.dq_n,
+        e_nr: p_n - pose.p,
+        dp: pose.J * tick.dq,
+        saturated: tick.saturated,
+        held: tick.held,
+        share: tick.share,
+        outside_bounds: tick.outside_bounds,
+        engaged: tick.engaged,
+    };
 }
 
 /// d JᵀJ, N·m·s/rad, for a damping `d` (N·s/m) of the handle: without the elements that couple yaw and pitch, which are

@@ -3,9 +3,9 @@
 //! Every centre of mass lies in the arm's plane (y = 0 in the link's frame) and the only product of inertia is xz, so
 //! that the yaw axis does not couple with the two pitch axes: M_n is block diagonal, 1 + 2, and depends on q₂, q₃ only.
 
-use crate::kinematics::Kinematics;
+use crate::kinematics::{Kinematics, SinCos, beta, sin_cos};
 use admittance::parameters::in_range;
-use admittance::{ParameterError, Real, real};
+use admittance::{ParameterError, Real};
 use declaration::check::Expected;
 use declaration::{Rows, Start};
 use nalgebra::{Matrix3, Vector3};
@@ -95,11 +95,15 @@ impl NominalArm {
     /// M₃₃ = m₃ r² + I_yy,₃             and the rotors on the diagonal
     /// ```
     pub fn at(&self, kinematics: &Kinematics, q: &Vector3<Real>) -> RigidBody {
+        self.turned(kinematics, &sin_cos(q))
+    }
+
+    /// The nominal arm at joint angles given by sine and cosine.
+    pub(crate) fn turned(&self, kinematics: &Kinematics, sin_cos: &SinCos) -> RigidBody {
         let (A1, L1) = (kinematics.A1, kinematics.L1);
         let [one, two, three] = &self.links;
-        let (s_2, c_2) = real::sin_cos(q[1]);
-        let (s_3, c_3) = real::sin_cos(q[2]);
-        let (s_b, c_b) = (s_2 * c_3 + c_2 * s_3, c_2 * c_3 - s_2 * s_3);
+        let [_, (s_2, c_2), (s_3, c_3)] = *sin_cos;
+        let (s_b, c_b) = beta(sin_cos);
 
         let (x_2, z_2) = two.turned(s_2, c_2);
         let (v_2, slope_2) = two.about_vertical(s_2, c_2);

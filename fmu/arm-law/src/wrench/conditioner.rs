@@ -2,8 +2,8 @@
 
 use super::deadband::deadband;
 use super::filter::LowPass;
-use super::tare::{Tare, TareSettings};
-use super::validity::{Checks, Validity};
+use super::tare::{Progress, Tare, TareSettings};
+use super::validity::{Checks, Seen, Validity};
 use super::{Fault, Frame, Mount, TareState, Tool, Wrench};
 use crate::choices::{FRAME, LINK_3, SOURCE, WRENCH};
 use admittance::parameters::in_range;
@@ -87,13 +87,15 @@ pub struct Conditioned {
     pub tare: TareState,
 }
 
-impl Conditioned {
-    /// Nobody has touched anything.
-    pub const NOTHING: Self = Self {
-        hand: Wrench::ZERO,
-        fault: None,
-        tare: TareState::Off,
-    };
+impl Default for Conditioned {
+    /// Nothing acts.
+    fn default() -> Self {
+        Self {
+            hand: Wrench::ZERO,
+            fault: None,
+            tare: TareState::Off,
+        }
+    }
 }
 
 /// The conditioning between two samples.
@@ -104,6 +106,17 @@ pub struct Conditioner {
     validity: Validity,
     tare: Tare,
     filter: LowPass,
+}
+
+/// A sample, with what is to be remembered of it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Made {
+    pub hand: Conditioned,
+    seen: Seen,
+    requested: bool,
+    progress: Option<Progress>,
+    /// what the filter has passed; zero where the hand is not known
+    passed: Wrench,
 }
 
 impl Sensor {
@@ -144,32 +157,51 @@ impl Conditioner {
 
     /// One sample.
     pub fn step(&mut self, sample: &Sample) -> Conditioned {
-        let fault = self.validity.step(&sample.wrench, sample.valid);
+        let made = self.sampled(sample);
+        self.keep(&made);
+        made.hand
+    }
+
+    /// What is made of a sample. Nothing is remembered of it until it is [kept](Self::keep).
+    #[inline]
+    pub(crate) fn sampled(&self, sample: &Sample) -> Made {
+        let seen = self.validity.sampled(&sample.wrench, sample.valid);
+        let fault = seen.fault;
         let unladen = sample.wrench - self.sensor.tool.weight(&sample.R);
-        self.tare.step(sample.tare, &unladen, fault, &sample.q);
-        let tare = self.tare.state();
-        if fault.is_some() || tare == TareState::Running {
-            self.filter.reset();
-            return Conditioned {
-                hand: Wrench::ZERO,
-                fault,
-                tare,
-            };
+        let progress = self.tare.sampled(sample.tare, &unladen, fault, &sample.q);
+        let (tare, bias) = match &progress {
+            Some(progress) => (progress.state, &progress.bias),
+            None => (self.tare.state(), self.tare.bias()),
+        };
+        let is_known = fault.is_none() && tare != TareState::Running;
+        let (passed, hand) = if is_known {
+            let hand = (unladen - *bias).about(&self.sensor.handle.into());
+            let passed = self.filter.passed(&hand);
+            let force = deadband(&passed.force, self.sensor.deadband);
+            let torque = passed.torque;
+            (passed, Wrench { force, torque })
+        } else {
+            (Wrench::ZERO, Wrench::ZERO)
+        };
+        Made {
+            hand: Conditioned { hand, fault, tare },
+            seen,
+            requested: sample.tare,
+            progress,
+            passed,
         }
-        let hand = (unladen - self.tare.bias()).about(&self.sensor.handle.into());
-        let hand = self.filter.step(&hand);
-        Conditioned {
-            hand: Wrench {
-                force: deadband(&hand.force, self.sensor.deadband),
-                torque: hand.torque,
-            },
-            fault,
-            tare,
-        }
+    }
+
+    /// Goes on from what was made of a sample.
+    #[inline]
+    pub(crate) fn keep(&mut self, made: &Made) {
+        self.validity.keep(&made.seen);
+        self.tare.keep(made.requested, made.progress.as_ref());
+        self.filter.keep(&made.passed);
     }
 
     /// What the sensor reads when nothing acts on it, as far as a tare has found it; sensor frame.
     pub fn bias(&self) -> Wrench {
-        self.tare.bias()
+        *self.tare.bias()
     }
 }

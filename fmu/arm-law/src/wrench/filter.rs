@@ -17,7 +17,7 @@ use admittance::{Real, real};
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct LowPass {
     /// 1 − e^{−2π f_c T}; 1 = off.
-    share: Real,
+    weight: Real,
     state: Wrench,
 }
 
@@ -25,7 +25,7 @@ impl LowPass {
     /// Corner frequency `cutoff` (Hz, ≥ 0; 0 = off) at sample period `T` (s), at rest at zero.
     pub fn new(cutoff: Real, T: Real) -> Self {
         Self {
-            share: if cutoff > 0.0 {
+            weight: if cutoff > 0.0 {
                 -real::exp_m1(-2.0 * real::consts::PI * cutoff * T)
             } else {
                 1.0
@@ -41,14 +41,33 @@ impl LowPass {
 
     /// One sample of the finite input `u`.
     pub fn step(&mut self, u: &Wrench) -> Wrench {
-        if self.share == 1.0 {
+        let passed = self.passed(u);
+        self.keep(&passed);
+        passed
+    }
+
+    /// What passes of the finite input `u`.
+    #[inline]
+    pub(super) fn passed(&self, u: &Wrench) -> Wrench {
+        if self.is_off() {
             return *u;
         }
-        let step = |x: Real, u: Real| real::floored(x + self.share * (u - x));
-        self.state = Wrench {
+        let step = |x: Real, u: Real| real::floored(x + self.weight * (u - x));
+        Wrench {
             force: self.state.force.zip_map(&u.force, step),
             torque: self.state.torque.zip_map(&u.torque, step),
-        };
-        self.state
+        }
+    }
+
+    /// Goes on from what has `passed`.
+    #[inline]
+    pub(super) fn keep(&mut self, passed: &Wrench) {
+        if !self.is_off() {
+            self.state = *passed;
+        }
+    }
+
+    fn is_off(&self) -> bool {
+        self.weight == 1.0
     }
 }

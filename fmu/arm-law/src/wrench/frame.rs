@@ -17,22 +17,30 @@ pub enum Frame {
     Mounted(Mount),
 }
 
+/// A frame, with what is known of it before the arm moves.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub(crate) enum FixedFrame {
+    Base,
+    Link3,
+    /// Turned by this matrix on link 3.
+    Mounted(Matrix3<Real>),
+}
+
 /// A frame at some joint angles.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Turn {
+pub(crate) struct Turn {
     /// Turns a vector of the frame into the base frame; `None`: it is the base frame.
     R: Option<Matrix3<Real>>,
 }
 
 impl Frame {
-    /// Where it is when the arm is at `pose`.
-    pub fn at(&self, pose: &Pose) -> Turn {
-        Turn {
-            R: match self {
-                Self::Base => None,
-                Self::Link3 => Some(pose.R),
-                Self::Mounted(mount) => Some(pose.R * mount.R()),
-            },
+    /// What is known of it before the arm moves.
+    pub(crate) fn fixed(&self) -> FixedFrame {
+        match self {
+            Self::Base => FixedFrame::Base,
+            Self::Link3 => FixedFrame::Link3,
+            Self::Mounted(mount) => FixedFrame::Mounted(mount.R()),
         }
     }
 
@@ -48,6 +56,20 @@ impl Frame {
     }
 }
 
+impl FixedFrame {
+    /// Where it is when the arm is at `pose`.
+    #[inline]
+    pub fn at(&self, pose: &Pose) -> Turn {
+        Turn {
+            R: match self {
+                Self::Base => None,
+                Self::Link3 => Some(pose.R),
+                Self::Mounted(R) => Some(pose.R * R),
+            },
+        }
+    }
+}
+
 impl Turn {
     /// Turns a vector of the frame into the base frame.
     pub fn R(&self) -> Matrix3<Real> {
@@ -55,7 +77,7 @@ impl Turn {
     }
 
     /// `vector` in the base frame: bit for bit what it was if that is its frame.
-    pub fn to_base(&self, vector: &Vector3<Real>) -> Vector3<Real> {
+    pub fn in_base(&self, vector: &Vector3<Real>) -> Vector3<Real> {
         self.R.map_or(*vector, |R| R * vector)
     }
 }

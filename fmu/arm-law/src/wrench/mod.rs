@@ -19,7 +19,7 @@
 //! use nalgebra::{Matrix3, Vector3};
 //!
 //! // A handle of 0.4 kg, 5 cm beyond the sensor, which hangs down.
-//! let tool = Tool { mass: 0.4, cog: Vector3::new(0.0, 0.0, 0.05), ..Tool::default() };
+//! let tool = Tool { mass: 0.4, cog: [0.0, 0.0, 0.05], ..Tool::default() };
 //! let mut conditioner = Conditioner::new(Sensor { tool, ..Sensor::default() }, 0.001)?;
 //! let sample = |force: Vector3<f64>| Sample {
 //!     wrench: Wrench { force, torque: Vector3::zeros() },

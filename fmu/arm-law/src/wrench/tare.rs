@@ -82,8 +82,15 @@ pub struct Tare {
     /// Samples that make a tare.
     needed: u32,
     requested: bool,
-    state: TareState,
-    bias: Wrench,
+    progress: Progress,
+}
+
+/// How far it has come, and what it has found so far.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub(super) struct Progress {
+    pub state: TareState,
+    pub bias: Wrench,
     count: u32,
     start: Vector3<Real>,
     mean: [Real; 6],
@@ -106,7 +113,7 @@ impl TareState {
     pub fn failure(self) -> Option<TareFailure> {
         match self {
             Self::Failed(failure) => Some(failure),
-            _ => None,
+            Self::Off | Self::Running | Self::Done => None,
         }
     }
 }
@@ -125,57 +132,91 @@ impl Tare {
             settings,
             needed: real::max(1.0, settings.time / T + 0.5) as u32,
             requested: false,
-            state: TareState::Off,
-            bias: Wrench::ZERO,
-            count: 0,
-            start: Vector3::zeros(),
-            mean: [0.0; 6],
-            deviation: [0.0; 6],
+            progress: Progress {
+                state: TareState::Off,
+                bias: Wrench::ZERO,
+                count: 0,
+                start: Vector3::zeros(),
+                mean: [0.0; 6],
+                deviation: [0.0; 6],
+            },
         }
     }
 
     /// How far it has come.
     pub fn state(&self) -> TareState {
-        self.state
+        self.progress.state
     }
 
-    /// What the sensor reads when nothing acts on it: of the last tare that was done, else zero.
-    pub fn bias(&self) -> Wrench {
-        self.bias
+    /// What the last tare that was done has found, else zero.
+    pub fn bias(&self) -> &Wrench {
+        &self.progress.bias
     }
 
     /// One sample: whether a tare is `requested`, the reading without the tool's weight, the sensor's fault, the joint
-    /// angles `q` (rad).
-    pub fn step(
-        &mut self,
+    /// angles `q` (rad). What changes by it but the request; nothing while no tare runs.
+    #[inline]
+    pub(super) fn sampled(
+        &self,
         requested: bool,
         unladen: &Wrench,
         fault: Option<Fault>,
         q: &Vector3<Real>,
-    ) {
+    ) -> Option<Progress> {
+        let is_running = self.state() == TareState::Running;
         let asked = requested && !self.requested;
+        (asked || is_running).then(|| self.taken(unladen, fault, q))
+    }
+
+    /// Goes on from a sample at which a tare was `requested` or not, and what changed by it.
+    #[inline]
+    pub(super) fn keep(&mut self, requested: bool, progress: Option<&Progress>) {
         self.requested = requested;
-        if asked && self.state != TareState::Running {
-            *self = Self {
+        if let Some(progress) = progress {
+            self.progress = *progress;
+        }
+    }
+
+    /// One more sample of a tare that runs, or begins.
+    #[cold]
+    fn taken(&self, unladen: &Wrench, fault: Option<Fault>, q: &Vector3<Real>) -> Progress {
+        let mut progress = match self.state() {
+            TareState::Running => self.progress,
+            TareState::Off | TareState::Done | TareState::Failed(_) => Progress {
                 state: TareState::Running,
+                bias: self.progress.bias,
                 count: 0,
                 start: *q,
                 mean: [0.0; 6],
                 deviation: [0.0; 6],
-                ..*self
-            };
-        }
-        if self.state == TareState::Running {
-            self.state = self.sampled(unladen, fault, q);
-        }
+            },
+        };
+        progress.state = progress.with(unladen, fault, q, self);
+        progress
     }
+}
 
-    /// The state after one more sample.
-    fn sampled(&mut self, unladen: &Wrench, fault: Option<Fault>, q: &Vector3<Real>) -> TareState {
+impl Progress {
+    /// The state after one more sample of a `tare`.
+    fn with(
+        &mut self,
+        unladen: &Wrench,
+        fault: Option<Fault>,
+        q: &Vector3<Real>,
+        tare: &Tare,
+    ) -> TareState {
+        let TareSettings {
+            motion,
+            spread_force,
+            spread_torque,
+            max_force,
+            max_torque,
+            ..
+        } = tare.settings;
         if fault.is_some() {
             return TareState::Failed(TareFailure::Fault);
         }
-        let moved = |(q, start): (&Real, &Real)| !within(q - start, self.settings.motion);
+        let moved = |(q, start): (&Real, &Real)| !within(q - start, motion);
         if q.iter().zip(&self.start).any(moved) {
             return TareState::Failed(TareFailure::Moved);
         }
@@ -186,7 +227,7 @@ impl Tare {
             *mean += before / self.count as Real;
             *deviation += before * (x - *mean);
         }
-        if self.count < self.needed {
+        if self.count < tare.needed {
             return TareState::Running;
         }
         let spread = Wrench::from(
@@ -194,13 +235,6 @@ impl Tare {
                 .map(|deviation| real::sqrt(deviation / self.count as Real)),
         );
         let mean = Wrench::from(self.mean);
-        let TareSettings {
-            spread_force,
-            spread_torque,
-            max_force,
-            max_torque,
-            ..
-        } = self.settings;
         if !all_within(&spread, spread_force, spread_torque) {
             TareState::Failed(TareFailure::Unsteady)
         } else if !all_within(&mean, max_force, max_torque) {

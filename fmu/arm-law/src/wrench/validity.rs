@@ -75,11 +75,18 @@ pub struct Checks {
 pub struct Validity {
     checks: Checks,
     T: Real,
+    seen: Seen,
+}
+
+/// What is remembered of the samples so far.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub(super) struct Seen {
     /// The last reading, if it was finite.
     last: Option<Wrench>,
     repetitions: u32,
     zeros: u32,
-    fault: Option<Fault>,
+    pub fault: Option<Fault>,
     /// For how long the signal has been sound since the fault, s.
     sound: Real,
 }
@@ -117,44 +124,52 @@ impl Validity {
         Self {
             checks,
             T,
-            last: None,
-            repetitions: 0,
-            zeros: 0,
-            fault: None,
-            sound: 0.0,
+            seen: Seen::default(),
         }
     }
 
-    /// The fault at the sample `raw`, if there is one. `flag` is the sensor's own word: false = invalid.
-    pub fn step(&mut self, raw: &Wrench, flag: bool) -> Option<Fault> {
-        match self.found(raw, flag) {
+    /// What is seen with the sample `raw`, and with it the fault, if there is one. `flag` is the sensor's own word: false =
+    /// invalid.
+    #[inline]
+    pub(super) fn sampled(&self, raw: &Wrench, flag: bool) -> Seen {
+        let finite = raw.components().iter().all(|x| x.is_finite());
+        let before = &self.seen;
+        let mut seen = Seen {
+            last: finite.then_some(*raw), // no rate across a gap
+            repetitions: counted(before.repetitions, before.last == Some(*raw)),
+            zeros: counted(before.zeros, *raw == Wrench::ZERO),
+            fault: before.fault,
+            sound: before.sound,
+        };
+        match self.found(&seen, raw, flag) {
             Some(found) => {
-                self.fault = match (found, self.fault) {
+                seen.fault = match (found, before.fault) {
                     (Fault::Rate, Some(fault)) => Some(fault),
                     _ => Some(found),
                 };
-                self.sound = 0.0;
+                seen.sound = 0.0;
             }
-            None if self.fault.is_some() => {
-                self.sound += self.T;
+            None if before.fault.is_some() => {
+                seen.sound += self.T;
                 // Half a sample: sums of T carry rounding.
-                if self.sound > self.checks.recovery_time - 0.5 * self.T {
-                    self.fault = None;
+                if seen.sound > self.checks.recovery_time - 0.5 * self.T {
+                    seen.fault = None;
                 }
             }
             None => {}
         }
-        self.fault
+        seen
     }
 
-    /// What is wrong with this sample.
-    fn found(&mut self, raw: &Wrench, flag: bool) -> Option<Fault> {
-        let finite = raw.components().iter().all(|x| x.is_finite());
-        let last = self.last;
-        self.repetitions = counted(self.repetitions, last == Some(*raw));
-        self.zeros = counted(self.zeros, *raw == Wrench::ZERO);
-        self.last = finite.then_some(*raw); // no rate across a gap
+    /// Goes on from what was `seen` with a sample.
+    #[inline]
+    pub(super) fn keep(&mut self, seen: &Seen) {
+        self.seen = *seen;
+    }
 
+    /// What is wrong with the sample `raw`, with which so much was `seen`.
+    #[inline]
+    fn found(&self, seen: &Seen, raw: &Wrench, flag: bool) -> Option<Fault> {
         let Checks {
             range_force,
             range_torque,
@@ -164,16 +179,17 @@ impl Validity {
             dropout_samples,
             ..
         } = self.checks;
+        let last = self.seen.last;
         let change = last.map_or(Wrench::ZERO, |last| *raw - last);
-        if !finite {
+        if seen.last.is_none() {
             Some(Fault::NotFinite)
         } else if !flag {
             Some(Fault::Dropout)
         } else if reaches(raw, range_force, range_torque) {
             Some(Fault::OverRange)
-        } else if reached(self.zeros, dropout_samples) {
+        } else if reached(seen.zeros, dropout_samples) {
             Some(Fault::Dropout)
-        } else if reached(self.repetitions, stuck_samples) {
+        } else if reached(seen.repetitions, stuck_samples) {
             Some(Fault::Stuck)
         } else if reaches(&change, rate_force * self.T, rate_torque * self.T) {
             Some(Fault::Rate)

@@ -11,10 +11,10 @@ fn sensor() -> Sensor {
     Sensor {
         tool: Tool {
             mass: 1.0,
-            cog: Vector3::new(0.0, 0.0, 0.1),
+            cog: [0.0, 0.0, 0.1],
             ..Tool::default()
         },
-        handle: Vector3::new(0.0, 0.1, 0.2),
+        handle: [0.0, 0.1, 0.2],
         cutoff: 20.0,
         deadband: 1.0,
         ..Sensor::default()
@@ -48,7 +48,7 @@ fn the_weight_goes_first_then_the_lever_arm_the_filter_and_the_deadband() {
             force,
             torque: Vector3::zeros(),
         };
-        let expected = filter.step(&(raw - tool.weight(&R)).about(&handle));
+        let expected = filter.step(&(raw - tool.weight(&R)).about(&handle.into()));
         let hand = step(&mut conditioner, force).hand;
         assert_eq!(hand.force, deadband(&expected.force, 1.0));
         assert_eq!(hand.torque, expected.torque);

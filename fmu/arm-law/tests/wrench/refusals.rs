@@ -24,11 +24,11 @@ fn every_parameter_out_of_its_range_is_named() {
         "ft.mass = -0.4: expected a finite value not less than 0"
     );
     let message = refusal(Sensor {
-        handle: Vector3::new(0.0, f64::NAN, 0.0),
+        handle: [0.0, f64::NAN, 0.0],
         ..sensor
     });
     assert_eq!(message, "ft.handle[2] = NaN: expected a finite value");
-    let nan = Vector3::new(0.0, 0.0, f64::NAN);
+    let nan = [0.0, 0.0, f64::NAN];
     let tool = |cog, gravity| Sensor {
         tool: Tool {
             mass: 1.0,
@@ -48,8 +48,8 @@ fn every_parameter_out_of_its_range_is_named() {
         sensor
     };
     for (name, sensor) in [
-        ("ft.cog[3]", tool(nan, Vector3::zeros())),
-        ("ft.gravity[3]", tool(Vector3::zeros(), nan)),
+        ("ft.cog[3]", tool(nan, [0.0; 3])),
+        ("ft.gravity[3]", tool([0.0; 3], nan)),
         ("ft.range_force", checks(|checks| checks.range_force = -1.0)),
         (
             "ft.range_torque",

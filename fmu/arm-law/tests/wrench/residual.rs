@@ -24,12 +24,12 @@ fn truth(random: &mut Random) -> Truth {
 fn conditioner(truth: &Truth, handle: Vector3<f64>, random: &mut Random) -> Conditioner {
     let tool = Tool {
         mass: truth.mass + random.within(0.001),
-        cog: truth.cog + random.vector(1e-4),
-        gravity: truth.gravity,
+        cog: (truth.cog + random.vector(1e-4)).into(),
+        gravity: truth.gravity.into(),
     };
     let sensor = Sensor {
         tool,
-        handle,
+        handle: handle.into(),
         ..Sensor::default()
     };
     Conditioner::new(sensor, T).unwrap()
@@ -90,7 +90,7 @@ fn residual(seed: u64, tool_is_known: bool) -> (f64, f64) {
         conditioner(&truth, handle, random)
     } else {
         let sensor = Sensor {
-            handle,
+            handle: handle.into(),
             ..Sensor::default()
         };
         Conditioner::new(sensor, T).unwrap()

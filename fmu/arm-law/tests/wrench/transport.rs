@@ -41,7 +41,7 @@ fn the_moment_about_the_handle_has_the_lever_arm_taken_off() {
     let handle = Vector3::new(0.01, -0.02, 0.15);
     let mut conditioner = Conditioner::new(
         Sensor {
-            handle,
+            handle: handle.into(),
             ..Sensor::default()
         },
         0.001,
@@ -88,7 +88,7 @@ fn the_mounting_turns_roll_first_and_yaw_last_about_fixed_axes() {
 fn the_weight_pulls_down_and_turns_about_the_sensor_whatever_its_orientation() {
     let tool = Tool {
         mass: 2.0,
-        cog: Vector3::new(0.1, 0.0, 0.0),
+        cog: [0.1, 0.0, 0.0],
         ..Tool::default()
     };
     let level = tool.weight(&Matrix3::identity());

@@ -52,6 +52,7 @@ pub mod flow;
 pub mod gauss_seidel;
 pub mod guess;
 pub mod kinematics;
+pub(crate) mod linear;
 pub mod parameters;
 pub mod payload;
 pub mod plant;

@@ -12,7 +12,8 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use crate::arm::guess::{Guess, Linear};
+use crate::arm::guess::Guess;
+use crate::arm::linear::Linear;
 use crate::arm::problem::{Problem, Solution};
 use crate::arm::solver;
 

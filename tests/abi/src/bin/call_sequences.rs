@@ -48,7 +48,7 @@ impl Arguments {
                 _ => return Err(format!("unknown option {option}\n{USAGE}")),
             }
         }
-        let names = abi::fmu::PRODUCTS;
+        let names = fmus::NAMES;
         if arguments.fmu == "Lag" || names.contains(&arguments.fmu.as_str()) {
             return Ok(arguments);
         }

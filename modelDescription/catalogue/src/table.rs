@@ -72,16 +72,13 @@ fn amplitude(unit: &str) -> f64 {
     }
 }
 
-/// The table of the test model, which has no committed description; references are 256 times the row.
-pub const LAG: &str = "model lag\nguid ?\nstep 0.01\npanic 1280\nreal-input 0 0 1\nreal-output 256\nreal-output 768\ninteger-output 1024\nboolean-output 1280\n";
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
     fn every_number_of_every_fmu_is_in_its_table() {
-        for fmu in crate::catalogue::FMUS {
+        for fmu in crate::FMUS {
             let interface = fmu.interface().expect("legal");
             let lines = of(&interface).lines().count();
             let numbers = interface

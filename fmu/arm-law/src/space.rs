@@ -1,10 +1,10 @@
 //! The coordinates in which the nominal lives, and the law in them.
 
-use crate::joint_space::{JointGains, JointParameters, JointSpace, Nominal};
-use crate::kinematics::{Kinematics, Pose};
-use crate::limits::Limits;
-use crate::task_space::{Outcome, TaskSpace};
-use admittance::{Bounds, Gains, Ledger, ParameterError, Reach, Real, Request, Settings};
+use crate::handle::{HandleTick, NotFinite};
+use crate::joint_space::{JointGains, JointSpace, Nominal};
+use crate::kinematics::Pose;
+use crate::task_space::TaskSpace;
+use admittance::{Gains, Ledger, ParameterError, Real, Request};
 use nalgebra::{Matrix3, Vector3};
 
 /// The coordinates in which the nominal lives.
@@ -17,41 +17,19 @@ pub enum Space {
     Joint,
 }
 
-/// The law in one of its coordinates.
+/// The law in one of its spaces.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[allow(
     clippy::large_enum_variant,
     reason = "there is no heap to put the larger one on"
 )]
-pub(crate) enum Form {
+pub(crate) enum InSpace {
     Task(TaskSpace),
     Joint(JointSpace),
 }
 
-impl Form {
-    /// At the handle. The caller has checked `limits`.
-    pub fn task(
-        settings: Settings,
-        gains: [Gains; 3],
-        bounds: [Bounds; 3],
-        reach: Reach<3>,
-        limits: Limits,
-    ) -> Result<Self, ParameterError> {
-        TaskSpace::new(settings, gains, bounds, reach, limits).map(Self::Task)
-    }
-
-    /// In the joints. The caller has checked `limits`.
-    pub fn joint(
-        settings: Settings,
-        parameters: &JointParameters,
-        kinematics: Kinematics,
-        reach: Reach<3>,
-        limits: Limits,
-    ) -> Result<Self, ParameterError> {
-        JointSpace::new(settings, parameters, kinematics, reach, limits).map(Self::Joint)
-    }
-
+impl InSpace {
     /// Other gains at the handle; in joint space they are checked and have no effect.
     pub fn tune(&mut self, gains: [Gains; 3]) -> Result<(), ParameterError> {
         match self {
@@ -71,45 +49,76 @@ impl Form {
     }
 
     /// Whether the nominal is to be slowed before a singularity.
-    pub fn knows_singularities(&self) -> bool {
-        matches!(self, Self::Task(_))
+    pub const fn knows_singularities(&self) -> bool {
+        match self {
+            Self::Task(_) => true,
+            Self::Joint(_) => false,
+        }
     }
 
     /// One tick in the loop. `request.speed` is that of the nominal's own coordinates, m/s or rad/s.
+    #[inline]
     pub fn step(
         &mut self,
         pose: &Pose,
         q: &Vector3<Real>,
         f_h: &Vector3<Real>,
         request: &Request<3>,
-    ) -> (Outcome, Nominal) {
+        shown: &mut HandleTick,
+        nominal: &mut Nominal,
+    ) -> Result<(), NotFinite> {
         match self {
-            Self::Task(law) => (law.step(pose, q, f_h, request), no_joints(q)),
-            Self::Joint(law) => law.step(pose, q, f_h, request),
+            Self::Task(law) => {
+                *nominal = no_joints(q);
+                law.step(pose, q, f_h, request, shown)
+            }
+            Self::Joint(law) => law.step(pose, q, f_h, request, shown, nominal),
         }
     }
 
     /// One tick out of the loop.
-    pub fn rest(&mut self, pose: &Pose, q: &Vector3<Real>) -> (Outcome, Nominal) {
+    pub fn rest(
+        &mut self,
+        pose: &Pose,
+        q: &Vector3<Real>,
+        shown: &mut HandleTick,
+        nominal: &mut Nominal,
+    ) -> Result<(), NotFinite> {
         match self {
-            Self::Task(law) => (law.rest(pose, q), no_joints(q)),
-            Self::Joint(law) => law.rest(pose, q),
+            Self::Task(law) => {
+                *nominal = no_joints(q);
+                law.rest(pose, q, shown)
+            }
+            Self::Joint(law) => law.rest(pose, q, shown, nominal),
         }
     }
 
     /// The same when the sample that ends cannot be told in finite numbers.
-    pub fn abandon(&mut self, pose: &Pose, q: &Vector3<Real>) -> (Outcome, Nominal) {
+    pub fn abandon(
+        &mut self,
+        pose: &Pose,
+        q: &Vector3<Real>,
+        shown: &mut HandleTick,
+        nominal: &mut Nominal,
+    ) {
         match self {
-            Self::Task(law) => (law.abandon(pose), no_joints(q)),
-            Self::Joint(law) => law.abandon(pose, q),
+            Self::Task(law) => {
+                *nominal = no_joints(q);
+                law.abandon(pose, shown);
+            }
+            Self::Joint(law) => law.abandon(pose, q, shown, nominal),
         }
     }
 
     /// The nominal's velocity in its own coordinates, m/s or rad/s.
-    pub fn velocity(&self, outcome: &Outcome, nominal: &Nominal) -> Vector3<Real> {
+    pub const fn velocity<'a>(
+        &self,
+        shown: &'a HandleTick,
+        nominal: &'a Nominal,
+    ) -> &'a Vector3<Real> {
         match self {
-            Self::Task(_) => outcome.dp_n,
-            Self::Joint(_) => nominal.dq_n,
+            Self::Task(_) => &shown.dp_n,
+            Self::Joint(_) => &nominal.dq_n,
         }
     }
 
@@ -123,6 +132,7 @@ impl Form {
 }
 
 /// The joints of a nominal that lives at the handle: the robot's, at rest.
+#[inline]
 fn no_joints(q: &Vector3<Real>) -> Nominal {
     Nominal::at(q, Matrix3::zeros())
 }

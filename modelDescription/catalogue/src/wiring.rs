@@ -53,7 +53,7 @@ pub fn of(fmu: &str) -> Vec<Connection<'static>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::catalogue::FMUS;
+    use crate::FMUS;
     use declaration::Causality;
     use model_description::entry::{Entry, Kind};
 

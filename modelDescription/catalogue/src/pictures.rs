@@ -1,6 +1,6 @@
 //! The pictures say what the models compute: names, and the places of the arm's points.
 
-use crate::catalogue::FMUS;
+use crate::FMUS;
 use export::{Log, Model as _};
 use std::collections::BTreeSet;
 

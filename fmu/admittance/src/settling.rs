@@ -1,0 +1,197 @@
+//! A sample that has ended: what it created, and what is given up for it.
+
+use crate::ledger::Ledger;
+use crate::{Real, Settings, real};
+use nalgebra::SVector;
+
+/// The sample that ended, settled: what [`Ledger::book`] takes over. Nothing has happened until then.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[must_use]
+pub struct Settlement<const N: usize> {
+    /// Position at its end, m, if it is known.
+    pub(crate) q: Option<SVector<Real, N>>,
+    /// Its motion, m, if it can foretell the next one.
+    pub(crate) step: Option<SVector<Real, N>>,
+    /// Whether that motion left the reach.
+    pub(crate) outside: bool,
+    pub(crate) H: Real,
+    pub(crate) G: Real,
+    pub(crate) tank: Real,
+    pub(crate) rounding: Real,
+}
+
+impl<const N: usize> Settlement<N> {
+    /// G, created up to this tick, J; negative: dissipated.
+    pub fn G(&self) -> Real {
+        self.G
+    }
+
+    /// Whether the motion exceeded the reach, to which the passivity argument is restricted.
+    pub fn is_outside(&self) -> bool {
+        self.outside
+    }
+
+    /// The same without a motion to judge the next one by: the law engages, and what was sensed before need not have been
+    /// the robot.
+    pub fn without_motion(self) -> Self {
+        Self {
+            step: None,
+            outside: false,
+            ..self
+        }
+    }
+}
+
+/// What is kept of the stored energy: fractions of e and of v_n in [0, 1].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Keep {
+    /// Fraction of every position error.
+    pub e: Real,
+    /// Fraction of every nominal velocity.
+    pub v_n: Real,
+}
+
+/// A law at a tick, once the position is known: what it stores and can give up.
+pub trait Stored {
+    /// Energy stored, J. Not finite for alpha = 0.
+    fn stored(&self, settings: &Settings) -> Real;
+    /// The springs' part of it, J.
+    fn spring(&self, settings: &Settings) -> Real;
+    /// The nominal masses' part of it, J; not as a difference, which would round like the whole.
+    fn masses(&self, settings: &Settings) -> Real;
+    /// Gives up all but these fractions of the position errors and of the nominal velocities.
+    fn reduce(&mut self, keep: Keep);
+}
+
+/// What rounding may take from the tank in a sample, relative to the terms of ΔG.
+const A_SAMPLE: Real = 64.0 * Real::EPSILON;
+
+impl<const N: usize> Ledger<N> {
+    /// Settles the sample that ends now at the position `q` (m). Where the tank is kept, `law` gives up as much of what it
+    /// stores as must be for the tank to stay ≥ 0.
+    #[inline]
+    pub fn settle<S: Stored>(
+        &self,
+        law: &mut S,
+        settings: &Settings,
+        q: &SVector<Real, N>,
+    ) -> Settlement<N> {
+        let H = law.stored(settings);
+        if !self.terms.kept || self.created(H, q) <= self.tank {
+            return self.close(H, q);
+        }
+        let keep = self.affordable(law.spring(settings), law.masses(settings), q);
+        law.reduce(keep);
+        self.close(law.stored(settings), q)
+    }
+
+    /// What may be kept at this tick, with the position `q` (m), of the energy that the law stores in its springs and in its
+    /// nominal masses (J), for the tank to stay ≥ 0: what is given up is taken from the springs first.
+    ///
+    /// It is found without the springs' energy, which can be many times what is left of it: a difference of the two would
+    /// leave the larger one's rounding.
+    fn affordable(&self, spring: Real, masses: Real, q: &SVector<Real, N>) -> Keep {
+        let affordable = self.tank - self.created(0.0, q);
+        let fraction = |energy: Real, affordable: Real| {
+            if affordable <= 0.0 {
+                0.0
+            } else if affordable < energy {
+                real::sqrt(affordable / energy)
+            } else {
+                1.0
+            }
+        };
+        Keep {
+            e: fraction(spring, affordable - masses),
+            v_n: fraction(masses, affordable),
+        }
+    }
+
+    /// Settles the sample that ends now with the energy `H` (J) that the law stores now and the position `q` (m). Nothing is
+    /// given up.
+    #[inline]
+    pub fn close(&self, H: Real, q: &SVector<Real, N>) -> Settlement<N> {
+        let step = self.q.map(|last| q - last);
+        let seen = Settlement {
+            q: Some(*q),
+            step,
+            outside: step.is_some_and(|step| {
+                let reach = &self.terms.reach;
+                reach.is_left(&step, self.step.as_ref())
+            }),
+            ..self.unsettled()
+        };
+        if !self.terms.defined {
+            return seen;
+        }
+        let created = self.created(H, q);
+        self.paid(seen, H, created, || self.size(H, q))
+    }
+
+    /// Settles the sample that ends now at a position that is not known, with nothing left stored: the tank pays for the most
+    /// that the force can have done, and, with a delay, at the next sample again. Where that is beyond all numbers the ledger
+    /// keeps what it last knew.
+    pub fn close_unseen(&self) -> Settlement<N> {
+        let most = self
+            .terms
+            .reach
+            .most_work(&self.acting, self.foretelling(), 1);
+        let unseen = Settlement {
+            q: None,
+            step: None,
+            outside: false,
+            ..self.unsettled()
+        };
+        let created = most - self.H - self.supplied;
+        if !self.terms.defined || !(self.G + created).is_finite() {
+            return unseen;
+        }
+        self.paid(unseen, 0.0, created, || {
+            real::abs(self.tank) + real::abs(most) + self.H + real::abs(self.supplied)
+        })
+    }
+
+    /// The `sample` paid for by the tank: it `created` so much (J), and `H` (J) is stored now. `size` gives the terms of ΔG at
+    /// their sizes, J.
+    #[inline]
+    fn paid(
+        &self,
+        sample: Settlement<N>,
+        H: Real,
+        created: Real,
+        size: impl FnOnce() -> Real,
+    ) -> Settlement<N> {
+        // With a delay, a force has been said that acts only now: what may cover it is not poured away.
+        let most = real::max(self.terms.E_0, self.reserved(&sample));
+        let tank = real::min(self.tank - created, most);
+        Settlement {
+            H,
+            G: self.G + created,
+            tank,
+            rounding: if tank < 0.0 {
+                real::max(self.rounding, A_SAMPLE * size())
+            } else {
+                0.0
+            },
+            ..sample
+        }
+    }
+
+    /// ΔG, J, of the sample that ends now, with `H` (J) stored now and the position `q` (m).
+    #[inline]
+    fn created(&self, H: Real, q: &SVector<Real, N>) -> Real {
+        let work = match &self.q {
+            Some(last) => self.acting.dot(&(q - last)),
+            None => self.terms.reach.most_work(&self.acting, None, 1),
+        };
+        H - self.H + work - self.supplied
+    }
+
+    /// The terms of ΔG at their sizes, J.
+    fn size(&self, H: Real, q: &SVector<Real, N>) -> Real {
+        let work = self
+            .q
+            .map_or(0.0, |last| self.acting.abs().dot(&(q - last).abs()));
+        real::abs(self.tank) + H + self.H + work + real::abs(self.supplied)
+    }
+}

@@ -1,0 +1,126 @@
+//! The list of the FMUs with their types. The descriptions written from their declarations are committed as
+//! `modelDescription/<Name>.xml`, so that an interface change is a diff that someone reads.
+
+use crate::root;
+use declaration::Declare;
+use model_description::{Error, Interface, xml};
+use std::io;
+use std::path::PathBuf;
+
+/// One FMU.
+#[derive(Clone, Copy, Debug)]
+pub struct Fmu {
+    /// Its name: archive, library and example target.
+    pub name: &'static str,
+    /// Signs and frames, as an `<svg>` element.
+    pub picture: &'static str,
+    /// `model.png`.
+    pub icon: &'static [u8],
+    read: fn() -> Result<Interface, Error>,
+}
+
+macro_rules! types {
+    ($($crate_name:ident::$Type:ident, picture $picture:literal;)*) => {
+        /// All FMUs.
+        pub const FMUS: &[Fmu] = &[$(Fmu {
+            name: stringify!($Type),
+            picture: include_str!(concat!("../../pictures/", $picture, ".svg")),
+            icon: include_bytes!(concat!("../../icons/", stringify!($Type), ".png")),
+            read: Interface::of::<$crate_name::$Type>,
+        }),*];
+    };
+}
+
+fmus::each!(types);
+
+impl Fmu {
+    /// One by its name.
+    pub fn named(name: &str) -> Option<&'static Self> {
+        FMUS.iter().find(|fmu| fmu.name == name)
+    }
+
+    /// Its interface.
+    ///
+    /// # Errors
+    /// The rule that the declaration breaks.
+    pub fn interface(&self) -> Result<Interface, Error> {
+        (self.read)()
+    }
+
+    /// A model that is not in the list, with the icon of a control loop.
+    pub const fn example<D: Declare>(name: &'static str) -> Self {
+        Self {
+            name,
+            picture: "",
+            icon: include_bytes!("../../model.png"),
+            read: Interface::of::<D>,
+        }
+    }
+
+    /// The committed description.
+    pub fn committed(&self) -> PathBuf {
+        root()
+            .join("modelDescription")
+            .join(self.name)
+            .with_extension("xml")
+    }
+
+    /// Whether the committed description is the one that the declaration gives now.
+    pub fn is_committed(&self, interface: &Interface) -> bool {
+        std::fs::read_to_string(self.committed()).is_ok_and(|text| text == xml(interface))
+    }
+
+    /// Writes the description into the place where it is committed.
+    ///
+    /// # Errors
+    /// When the file cannot be written.
+    pub fn bless(&self, interface: &Interface) -> io::Result<()> {
+        std::fs::write(self.committed(), xml(interface))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use export::log::{ALL, Category};
+
+    #[test]
+    fn committed_descriptions_are_what_the_declarations_give() {
+        for fmu in FMUS {
+            let interface = fmu
+                .interface()
+                .unwrap_or_else(|error| panic!("{}: {error}", fmu.name));
+            assert!(
+                fmu.is_committed(&interface),
+                "modelDescription/{}.xml is not what the declaration gives: run `cargo xtask fmu --bless` and read the diff",
+                fmu.name
+            );
+        }
+    }
+
+    #[test]
+    fn each_declaration_bears_the_name_of_its_type() {
+        for fmu in FMUS {
+            assert_eq!(fmu.interface().expect("legal").name, fmu.name);
+        }
+    }
+
+    #[test]
+    fn declared_log_categories_are_those_of_the_exporter() {
+        let mut exported: Vec<_> = Category::LIST
+            .map(|category| category.name())
+            .map(|(name, about)| (name.to_str().expect("ASCII"), about))
+            .into();
+        exported.push((ALL.to_str().expect("ASCII"), "all categories"));
+        assert_eq!(xml::LOG_CATEGORIES, *exported);
+    }
+
+    #[test]
+    fn guids_differ_between_the_fmus() {
+        let guids: std::collections::BTreeSet<_> = FMUS
+            .iter()
+            .map(|fmu| fmu.interface().expect("legal").guid)
+            .collect();
+        assert_eq!(guids.len(), FMUS.len());
+    }
+}

@@ -1,0 +1,52 @@
+//! All FMUs with their models: the only package that depends on every one of them.
+//!
+//! The list itself is [`fmus::each`]. What goes through the names alone depends on that package, which depends on nothing; what
+//! needs the types goes through the same list with [`FMUS`] or with a macro of its own:
+//!
+//! ```
+//! for fmu in catalogue::FMUS {
+//!     let interface = fmu.interface().expect("a legal declaration");
+//!     assert_eq!(interface.name, fmu.name);
+//! }
+//! ```
+//!
+//! | module | what |
+//! |---|---|
+//! | [`fmu`] | the list with types, and the committed descriptions |
+//! | [`wiring`] | which output belongs to which input |
+//! | [`table`] | what the C host must know of an FMU |
+//! | [`functions`] | the names that a library exports |
+//! | [`header`] | the C header of the law's library |
+//! | [`request`] | what `cargo xtask` asks for: archives from libraries |
+//!
+//! The program `catalogue` answers `cargo xtask`, which so compiles without any model.
+
+pub mod fmu;
+pub mod functions;
+pub mod header;
+#[cfg(test)]
+mod pictures;
+pub mod request;
+pub mod table;
+pub mod wiring;
+
+pub use fmu::{FMUS, Fmu};
+
+/// The crates of the models, for macros that go through the list.
+pub mod models {
+    macro_rules! crates {
+        ($($crate_name:ident::$Type:ident, picture $picture:literal;)*) => {
+            $(pub use $crate_name;)*
+        };
+    }
+
+    fmus::each!(crates);
+}
+
+/// The folder of the workspace.
+pub fn root() -> std::path::PathBuf {
+    std::path::Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("../..")
+        .components()
+        .collect()
+}

@@ -1,0 +1,107 @@
+//! What `cargo xtask` asks of the models.
+//!
+//! ```text
+//! catalogue descriptions           says which committed descriptions are not what the declarations give
+//! catalogue bless                  writes them
+//! catalogue archives REQUESTS      packs; a file of JSON, a list of requests
+//! catalogue tables FOLDER          writes <Name>.txt for the C host
+//! catalogue functions              prints the names of the functions that a library exports
+//! catalogue law-header             prints the C header of the law's library
+//! ```
+
+use catalogue::request::Request;
+use catalogue::{FMUS, Fmu, functions, header, table};
+use std::path::Path;
+use std::process::ExitCode;
+
+/// The smallest example: packed for the tests, no FMU of the project.
+#[path = "../../export/examples/integrator.rs"]
+mod integrator;
+
+const USAGE: &str = "usage: catalogue descriptions | bless | archives REQUESTS | tables FOLDER | functions | law-header";
+
+fn main() -> ExitCode {
+    let words: Vec<_> = std::env::args().skip(1).collect();
+    let words: Vec<_> = words.iter().map(String::as_str).collect();
+    let outcome = match *words {
+        ["descriptions"] => descriptions(false),
+        ["bless"] => descriptions(true),
+        ["archives", requests] => archives(Path::new(requests)),
+        ["tables", folder] => tables(Path::new(folder)),
+        ["functions"] => {
+            functions::exported()
+                .iter()
+                .for_each(|name| println!("{name}"));
+            Ok(())
+        }
+        ["law-header"] => header::header().map(|text| print!("{text}")),
+        _ => Err(USAGE.to_owned()),
+    };
+    match outcome {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(reason) => {
+            eprintln!("error: {reason}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn descriptions(bless: bool) -> Result<(), String> {
+    for fmu in FMUS {
+        let interface = fmu
+            .interface()
+            .map_err(|error| format!("declaration of {}: {error}", fmu.name))?;
+        if bless {
+            let path = fmu.committed();
+            fmu.bless(&interface).map_err(at(&path))?;
+        } else if !fmu.is_committed(&interface) {
+            println!(
+                "note: modelDescription/{}.xml is out of date: `cargo xtask fmu --bless`, then read the diff",
+                fmu.name
+            );
+        }
+    }
+    Ok(())
+}
+
+fn archives(requests: &Path) -> Result<(), String> {
+    let text = std::fs::read_to_string(requests).map_err(at(requests))?;
+    let requests: Vec<Request> =
+        serde_json::from_str(&text).map_err(|error| format!("{}: {error}", requests.display()))?;
+    let example = Fmu::example::<integrator::Integrator>("integrator");
+    for request in requests {
+        let listed = Fmu::named(&request.name);
+        let fmu = listed
+            .or((request.name == example.name).then_some(&example))
+            .ok_or_else(|| format!("no FMU is named {}", request.name))?;
+        let bytes = request.archive(fmu)?;
+        replace(&request.archive, &bytes).map_err(at(&request.archive))?;
+    }
+    Ok(())
+}
+
+fn tables(folder: &Path) -> Result<(), String> {
+    std::fs::create_dir_all(folder).map_err(at(folder))?;
+    for fmu in FMUS {
+        let interface = fmu
+            .interface()
+            .map_err(|error| format!("declaration of {}: {error}", fmu.name))?;
+        let path = folder.join(fmu.name).with_extension("txt");
+        std::fs::write(&path, table::of(&interface)).map_err(at(&path))?;
+    }
+    Ok(())
+}
+
+/// Replaces a file in one go, so that nobody who reads it sees half of it.
+fn replace(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
+    if let Some(folder) = path.parent() {
+        std::fs::create_dir_all(folder)?;
+    }
+    let new = path.with_extension("new");
+    std::fs::write(&new, bytes)?;
+    std::fs::rename(&new, path)
+}
+
+fn at(path: &Path) -> impl FnOnce(std::io::Error) -> String {
+    move |error| format!("{}: {error}", path.display())
+}
