@@ -231,6 +231,7 @@ fn enumerations_ascend_and_units_and_types_have_one_definition() {
     let mut rows = Subject::DESCRIPTION.variables.to_vec();
     rows[DELAY] = Variable {
         name: "delay",
+        number: rows[DELAY].number,
         ..Subject::in_mode(&SECOND_MODE)
     };
     refused(

@@ -65,7 +65,7 @@ fn handle_and_pad_stand_where_the_arm_has_them_at_its_start() {
         number(picture, "pad", "x") + number(picture, "pad", "width") / 2.0,
         number(picture, "pad", "y"),
     );
-    for (drawn, point) in [(handle, arm.p), (pad, arm.p_pad)] {
+    for (drawn, point) in [(handle, arm.outputs.p), (pad, arm.outputs.p_pad)] {
         assert!((drawn.0 - point[0]).abs() < 1e-5, "{drawn:?} {point:?}");
         assert!((drawn.1 - point[2]).abs() < 1e-5, "{drawn:?} {point:?}");
     }

@@ -2,10 +2,7 @@
 //!
 //! It is also the subject of the tests of the C interface (`tests/abi`), as a shared library.
 
-use declaration::{
-    Declare, Description, Enumeration, Experiment, Item, Stepping, Variability::*, boolean,
-    enumeration, integer, real, string, unit,
-};
+use declaration::{Declare, Description, Enumeration, Experiment, Item, Rows, Start, Stepping};
 use export::{Log, Model, Refusal, Step};
 use serde::{Deserialize, Serialize};
 use std::path::Path;
@@ -28,34 +25,35 @@ static METHOD: Enumeration = Enumeration {
 };
 
 /// tau dy/dt = gain·u − y
-#[derive(Clone, Serialize, Deserialize)]
+#[derive(Clone, Serialize, Deserialize, Rows, Start)]
 pub struct Lag {
+    /// input
+    #[input(0)]
     u: f64,
+    /// output, at rest at the start
+    #[output(1, from = ["u", "gain"])]
     y: f64,
+    /// time constant
+    #[parameter(2, unit = SECOND, range = 1e-6..=1e6, start = 0.5)]
     tau: f64,
+    /// gain
+    #[parameter(3, range = -1e3..=1e3, tunable, start = 1.0)]
     gain: f64,
+    /// number of steps since the start
+    #[output(4)]
     steps: i32,
+    /// the next step panics
+    #[input(5)]
     panic: bool,
+    /// integration method
+    #[parameter(6, items = METHOD, typed, start = 1)]
     method: i32,
+    /// any text
+    #[parameter(7, start = "lag".into())]
     label: String,
+    /// where the importer unpacked the resources
+    #[output(8)]
     resource_path: String,
-}
-
-impl Default for Lag {
-    fn default() -> Self {
-        let (label, resource_path) = ("lag".into(), String::new());
-        Self {
-            u: 0.0,
-            y: 0.0,
-            tau: 0.5,
-            gain: 1.0,
-            steps: 0,
-            panic: false,
-            method: 1,
-            label,
-            resource_path,
-        }
-    }
 }
 
 impl Declare for Lag {
@@ -69,35 +67,7 @@ impl Declare for Lag {
             tolerance: 1e-6,
             step: 0.01,
         },
-        variables: &[
-            real!(u, unit::NONE).input(Continuous).about("input"),
-            real!(y, unit::NONE)
-                .output(Continuous)
-                .initially_from(&["u", "gain"])
-                .about("output, at rest at the start"),
-            real!(tau, unit::SECOND)
-                .parameter(Fixed)
-                .within(1e-6, 1e6)
-                .about("time constant"),
-            real!(gain, unit::NONE)
-                .parameter(Tunable)
-                .within(-1e3, 1e3)
-                .about("gain"),
-            integer!(steps)
-                .output(Discrete)
-                .about("number of steps since the start"),
-            boolean!(panic)
-                .input(Discrete)
-                .about("the next step panics"),
-            enumeration!(method, &METHOD)
-                .typed()
-                .parameter(Fixed)
-                .about("integration method"),
-            string!(label).parameter(Fixed).about("any text"),
-            string!(resource_path)
-                .output(Discrete)
-                .about("where the importer unpacked the resources"),
-        ],
+        variables: Self::ROWS,
     };
 }
 

@@ -1,10 +1,10 @@
 //! A model with a row of each kind, and a reader for what is written from it.
 #![allow(dead_code, reason = "each test file uses its part")]
 
-use declaration::unit::{self, Base, Display};
+use declaration::unit::{Base, Display};
 use declaration::{
-    Declare, Description, Enumeration, Experiment, Item, Stepping, Unit, Variability::*, Variable,
-    boolean, enumeration, integer, real, string,
+    Declare, Description, Enumeration, Experiment, Item, Rows, Start, Stepping, Unit,
+    Variability::*, Variable, enumeration, real,
 };
 use std::collections::BTreeMap;
 
@@ -39,48 +39,58 @@ pub static MODE: Enumeration = Enumeration {
     ],
 };
 
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Rows, Start)]
 pub struct Energy {
+    /// energy
+    // Calculated: its start value is nobody's business.
+    #[output(3, name = "energy.total", unit = JOULE, discrete, start = f64::NAN)]
     pub total: f64,
 }
 
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Rows, Start)]
+#[rows(discrete)]
 pub struct Subject {
+    /// force & "sign"
+    #[input(0, unit = NEWTON, range = -1e4..=1e4, start = [0.25, -0.5, 1.0 / 3.0])]
     pub u: [f64; 3],
+    /// switch
+    #[input(1, start = true)]
     pub on: bool,
+    /// joint angle
+    #[output(2, unit = self::RADIAN, from = ["u[i]", "gain"])]
     pub angle: [f64; 3],
+    #[part]
     pub energy: Energy,
+    /// tick, −1 before the first
+    #[output(4, start = -1)]
     pub tick: i32,
+    /// scale
+    #[calculated(5, tunable, from = ["gain", "delay"])]
     pub scale: f64,
+    /// gain
+    #[parameter(6, unit = NEWTON_SECOND_PER_METRE, range = 0.0.., tunable, start = 30.0)]
     pub gain: f64,
+    /// small
+    #[parameter(7, unit = SECOND, start = 8e-5)]
     pub tiny: f64,
+    /// large
+    #[parameter(8, start = 1e300)]
     pub huge: f64,
+    /// delay
+    #[parameter(9, integers = 0..=1)]
     pub delay: i32,
+    /// mode
+    #[parameter(10, items = MODE, typed, start = 4)]
     pub mode: i32,
+    /// label
+    #[parameter(11, start = "a <b> & \"c\"".into())]
     pub label: String,
+    /// inner
+    #[local(12, unit = METRE)]
     pub inner: f64,
+    /// choice
+    #[parameter(13, items = MODE, start = 1)]
     pub choice: i32,
-}
-
-impl Default for Subject {
-    fn default() -> Self {
-        Self {
-            u: [0.25, -0.5, 1.0 / 3.0],
-            on: true,
-            angle: [0.0; 3],
-            energy: Energy { total: f64::NAN }, // calculated: its start value is nobody's business
-            tick: -1,
-            scale: 0.0,
-            gain: 30.0,
-            tiny: 8e-5,
-            huge: 1e300,
-            delay: 0,
-            mode: 4,
-            label: "a <b> & \"c\"".into(),
-            inner: 0.0,
-            choice: 1,
-        }
-    }
 }
 
 impl Declare for Subject {
@@ -94,56 +104,19 @@ impl Declare for Subject {
             tolerance: 1e-6,
             step: 0.002,
         },
-        variables: &[
-            real!(u[3], unit::NEWTON)
-                .input(Discrete)
-                .within(-1e4, 1e4)
-                .about("force & \"sign\""),
-            boolean!(on).input(Discrete).about("switch"),
-            real!(angle[3], RADIAN)
-                .output(Discrete)
-                .initially_from(&["u[i]", "gain"])
-                .about("joint angle"),
-            real!(energy.total, unit::JOULE)
-                .output(Discrete)
-                .about("energy"),
-            integer!(tick)
-                .output(Discrete)
-                .about("tick, −1 before the first"),
-            real!(scale, unit::NONE)
-                .calculated_parameter(Tunable)
-                .initially_from(&["gain", "delay"])
-                .about("scale"),
-            real!(gain, unit::NEWTON_SECOND_PER_METRE)
-                .parameter(Tunable)
-                .at_least(0.0)
-                .about("gain"),
-            real!(tiny, unit::SECOND).parameter(Fixed).about("small"),
-            real!(huge, unit::NONE).parameter(Fixed).about("large"),
-            integer!(delay)
-                .parameter(Fixed)
-                .within_integers(0, 1)
-                .about("delay"),
-            enumeration!(mode, &MODE)
-                .typed()
-                .parameter(Fixed)
-                .about("mode"),
-            string!(label).parameter(Fixed).about("label"),
-            real!(inner, unit::METRE).local(Discrete).about("inner"),
-            enumeration!(choice, &MODE).parameter(Fixed).about("choice"),
-        ],
+        variables: Self::ROWS,
     };
 }
 
 impl Subject {
     /// The row `mode`, of another enumeration type.
     pub fn in_mode(of: &'static Enumeration) -> Variable<Self> {
-        enumeration!(mode, of).typed().parameter(Fixed)
+        enumeration!(mode, of).typed().parameter(Fixed).numbered(10)
     }
 
     /// The row `inner`, in another unit.
     pub fn in_unit(unit: Unit) -> Variable<Self> {
-        real!(inner, unit).local(Discrete)
+        real!(inner, unit).local(Discrete).numbered(12)
     }
 }
 

@@ -1,7 +1,7 @@
 //! `ExoskeletonArm.fmu`: the powered upper limb, a geared 3-DoF arm with payload, table, wall and its sensors.
 //!
-//! The physics, its equations, its parameters and its energy balance are in [`mechanics::arm`]; this crate steps the plant and
-//! reads it through an encoder and a force sensor that can be as bad as real ones.
+//! The physics, its equations, parameters and energy balance are in [`mechanics::arm`]; this crate steps the plant and reads
+//! it through an encoder and a force sensor that can be as bad as real ones.
 //!
 //! Base frame: origin at the shoulder, x forward, y to the left, z up. q₁ is yaw about z, q₂ and q₃ are pitch about −y:
 //! positive lifts. Forces act on the arm, positive along the axis: f_h at the handle, f_d and f_e at the pad.

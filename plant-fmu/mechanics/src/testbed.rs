@@ -24,8 +24,8 @@ pub struct Forces {
     pub tau_d: f64,
 }
 
-/// What the testbed is made of. The start values are the paper's: 1 kg of testbed and 5 kg of payload, 0.64 N, 0.19 N·s/m, a
-/// wall at 0.3 m.
+/// What the testbed is made of. The start values are the paper's: 1 kg of testbed and 5 kg of payload, 0.64 N,
+/// 0.19 N·s/m, a wall at 0.3 m.
 #[derive(Clone, Copy, Debug, PartialEq, Rows, Start)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Parameters {

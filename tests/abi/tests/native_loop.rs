@@ -37,10 +37,10 @@ fn native_loop(folder: &Path, n: u32, more: &[&str]) -> Output {
 fn linked(n: u32, law: i32, mass: f64) -> Vec<[f64; 6]> {
     let mut log = Log::silent();
     let (mut controller, mut plant) = (TestbedController::default(), Testbed::default());
-    (controller.parameters.law, plant.M) = (law, mass);
-    (controller.inputs.tau_h, plant.tau_h) = (forces(0).0, forces(0).0);
+    (controller.parameters.law, plant.parameters.M) = (law, mass);
+    (controller.inputs.tau_h, plant.forces.tau_h) = (forces(0).0, forces(0).0);
     plant.initialize(0.0, &mut log).expect("start values");
-    controller.inputs.q = plant.q;
+    controller.inputs.q = plant.outputs.q;
     controller.initialize(0.0, &mut log).expect("start values");
     (0..n)
         .map(|k| {
@@ -50,10 +50,11 @@ fn linked(n: u32, law: i32, mass: f64) -> Vec<[f64; 6]> {
                 h: T,
             };
             let (tau_h, tau_d) = forces(k);
-            (controller.inputs.q, controller.inputs.tau_h) = (plant.q, tau_h);
+            (controller.inputs.q, controller.inputs.tau_h) = (plant.outputs.q, tau_h);
             controller.step(step, &mut log).expect("a step");
-            let q = plant.q;
-            (plant.tau_a, plant.tau_h, plant.tau_d) = (controller.outputs.tau_a, tau_h, tau_d);
+            let q = plant.outputs.q;
+            plant.forces.tau_a = controller.outputs.tau_a;
+            (plant.forces.tau_h, plant.forces.tau_d) = (tau_h, tau_d);
             plant.step(step, &mut log).expect("a step");
             let c = &controller;
             [

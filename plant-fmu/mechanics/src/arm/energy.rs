@@ -8,8 +8,8 @@ use super::rigid_body::RigidBody;
 use super::state::State;
 use crate::Sum;
 
-/// Energy balance since the start (J); each sum adds up one term of [`Flow`]. The residual is the error of M, C, g and J being
-/// taken at the begin of a substep.
+/// Energy balance since the start (J); each sum adds up one term of [`Flow`]. The residual is the error of M, C, g and J
+/// being taken at the begin of a substep.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Rows)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Energy {

@@ -1,4 +1,5 @@
-//! What the arm is made of, and where it starts: one row each, numbered from A1 on.
+//! What the arm is made of, and where it starts: one row each, numbered from A1 on. A new row takes the next number that is
+//! free in both FMUs of the arm: 49 (ExoskeletonArm counts from 36 and ends at 84, ExoskeletonArms from 49 and at 89).
 
 use declaration::{Rows, Start};
 

@@ -3,8 +3,8 @@
 use crate::wall;
 use declaration::{Rows, Start};
 
-/// A compliant plane with dry friction. Along the normal it is a [`Wall`](wall::Wall): pushes only, has a deflection of its own.
-/// Along each tangential axis of the base frame friction opposes the pad's velocity w_t, rigidly:
+/// A compliant plane with dry friction. Along the normal it is a [`Wall`](wall::Wall): pushes only, has a deflection of its
+/// own. Along each tangential axis of the base frame friction opposes the pad's velocity w_t, rigidly:
 ///
 /// ```text
 /// −f_t ∈ μ λ Sgn(w_t)
