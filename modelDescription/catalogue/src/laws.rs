@@ -46,7 +46,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_README_has_the_table_of_the_laws() {
+    fn the_readme_has_the_table_of_the_laws() {
         let readme = std::fs::read_to_string(crate::root().join("README.md")).expect("is there");
         let begin = "<!-- laws: made from fmu/admittance/src/law.rs -->\n";
         let block = readme
