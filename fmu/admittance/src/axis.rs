@@ -23,13 +23,16 @@ pub struct Axis {
     motion: Motion,
 }
 
-/// One axis at a tick, once the position is known: what it stores, before it acts.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// One axis at a tick, once the position is known.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Sensed {
-    gains: Gains,
-    motion: Motion,
+    /// Position, m.
     q: Real,
+    /// The robot's velocity, m/s.
+    dq: Real,
+    /// Position error, after the slip, m.
     e: Real,
+    /// The nominal's velocity, m/s.
     v_n: Real,
 }
 
@@ -45,20 +48,18 @@ pub struct Request {
 }
 
 /// What one axis asks for at a tick. Nothing has happened until it is committed.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Proposal {
-    gains: Gains,
-    motion: Motion,
-    interval: Interval,
     q: Real,
     sample: Sample,
+    interval: Interval,
     wish: Driven,
     /// K y before any limit, N
     f_demand: Real,
 }
 
 /// How the nominal moves in the sample that begins.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Driven {
     /// Its velocity at the middle of the sample, m/s.
     pub v_m: Real,
@@ -99,26 +100,46 @@ impl Axis {
         (self.q_n, self.v_n, self.motion) = (None, 0.0, Motion::default());
     }
 
+    /// The gains at this tick.
+    #[inline]
+    fn gains(&self) -> &Gains {
+        self.tuning.now()
+    }
+
     /// The axis at a tick with position `q` (m): gains on their way take over, the spring slips.
     #[inline]
     pub fn sense(&self, q: Real, settings: &Settings, sampling: &Sampling) -> Sensed {
         let (mut e, mut v_n) = (self.q_n.unwrap_or(q) - q, self.v_n);
-        let mut gains = *self.tuning.now();
-        if let Some(next) = self.tuning.next() {
-            (e, v_n) = retune::taken_over(settings.law, &gains, &next, e, v_n);
-            gains = next;
+        if let Some(last) = self.tuning.changed_from() {
+            (e, v_n) = retune::taken_over(settings.law, last, self.gains(), e, v_n);
         }
         Sensed {
-            motion: self.motion.sensed(q, sampling),
             q,
-            e: storage::slipped(settings.law, &gains, e),
+            dq: self.motion.dq(q, sampling),
+            e: storage::slipped(settings.law, self.gains(), e),
             v_n,
-            gains,
         }
     }
 
+    /// Energy stored at this tick, J. Not finite for alpha = 0.
+    #[inline]
+    pub fn stored(&self, sensed: &Sensed, settings: &Settings) -> Real {
+        let Sensed { e, v_n, .. } = *sensed;
+        storage::stored(settings.law, self.gains(), settings.alpha, e, v_n)
+    }
+
+    /// The spring's part of it, J.
+    pub fn spring(&self, sensed: &Sensed, settings: &Settings) -> Real {
+        storage::spring(settings.law, self.gains(), sensed.e)
+    }
+
+    /// The nominal mass's part of it, J. Not finite for alpha = 0.
+    pub fn mass(&self, sensed: &Sensed, settings: &Settings) -> Real {
+        storage::mass(self.gains(), settings.alpha, sensed.v_n)
+    }
+
     /// What the axis asks for with the human's force `f_h` (N): nominal and coupling are solved together, within the
-    /// `bounds` and the `request`.
+    /// bounds and the `request`.
     #[inline]
     pub fn propose(
         &self,
@@ -127,47 +148,89 @@ impl Axis {
         request: &Request,
         settings: &Settings,
     ) -> Proposal {
-        let Sensed {
-            gains,
-            motion,
-            q,
-            e,
-            v_n,
-        } = *sensed;
-        let T = settings.T;
+        let (gains, T) = (self.gains(), settings.T);
+        let Sensed { q, dq, e, v_n } = *sensed;
         let sample = Sample {
             e,
             v_n,
-            dq: motion.dq(),
+            dq,
             f_h,
             D_n: gains.D_n + request.damping,
         };
         let interval = Interval::within(self.bounds.as_ref(), q + e, T, request.hold)
             .no_faster_than(request.speed);
         let Midpoint { v_m: free, mut y } =
-            midpoint::coupled(&gains, settings.reaction(), T, &sample);
+            midpoint::coupled(gains, settings.reaction(), T, &sample);
         let v_m = interval.keep(free);
         let held = v_m != free;
         if held {
-            y = midpoint::coupling(&gains, T, &sample, v_m);
+            y = midpoint::coupling(gains, T, &sample, v_m);
         }
         Proposal {
-            f_demand: gains.K * y,
-            gains,
-            motion,
-            interval,
             q,
             sample,
+            interval,
             wish: Driven { v_m, held },
+            f_demand: gains.K * y,
         }
     }
 
+    /// What the axis asks for within ±f_max, N.
+    #[inline]
+    pub fn f(&self, proposal: &Proposal) -> Real {
+        sat(proposal.f_demand, self.gains().f_max)
+    }
+
+    /// How the nominal moves if the robot gets the force `f` (N).
+    #[inline]
+    pub fn driven(&self, proposal: &Proposal, f: Real, settings: &Settings) -> Driven {
+        let Proposal {
+            sample,
+            interval,
+            wish,
+            f_demand,
+            ..
+        } = proposal;
+        match settings.law.row().felt {
+            Felt::Delivered if f != *f_demand => {
+                let (alpha, T) = (settings.reaction(), settings.T);
+                let y_s = f / self.gains().K;
+                let free = midpoint::driven(self.gains(), alpha, T, sample, y_s);
+                let v_m = interval.keep(free);
+                Driven {
+                    v_m,
+                    held: v_m != free,
+                }
+            }
+            Felt::Delivered | Felt::Coupling | Felt::Nothing => *wish,
+        }
+    }
+
+    /// Energy (J) that the law is sure to take in the sample that begins, if the robot gets the force `f` (N) and the nominal
+    /// is `driven` by it: what the human brings less what the nominal keeps, its damping, and the spring, which can be given
+    /// up afterwards.
+    ///
+    /// −ΔH + (K/alpha) f_h v_m T ≥ K y v_m T + (K/alpha) D_n v_m² T + ½ K K_P e²
+    #[inline]
+    pub fn taken(&self, proposal: &Proposal, driven: Driven, f: Real, settings: &Settings) -> Real {
+        let (gains, sample, v_m) = (self.gains(), &proposal.sample, driven.v_m);
+        f * v_m * settings.T
+            + gains.K / settings.alpha * sample.D_n * v_m * v_m * settings.T
+            + storage::spring(settings.law, gains, sample.e)
+    }
+
+    /// Energy (K/alpha) f_h v_m T that the human's port brings in the sample that begins, J. Not finite for alpha = 0.
+    #[inline]
+    pub fn supplied(&self, proposal: &Proposal, driven: Driven, settings: &Settings) -> Real {
+        let Settings { alpha, T, .. } = *settings;
+        midpoint::supplied(self.gains(), alpha, T, &proposal.sample, driven.v_m)
+    }
+
     /// The nominal moves on as `driven`, while the robot gets the force `f` (N), which the caller's limits left of what the
-    /// axis proposed.
+    /// axis asked for.
     #[inline]
     pub fn commit(&mut self, proposal: &Proposal, driven: Driven, f: Real, settings: &Settings) {
-        let Proposal { gains, sample, .. } = proposal;
-        let T = settings.T;
+        let (gains, sample, T) = (self.gains(), &proposal.sample, settings.T);
         let Driven { v_m, held } = driven;
         let mut v_n = midpoint::end(sample, v_m);
         if held {
@@ -179,31 +242,14 @@ impl Axis {
             }
             Spring::Slips | Spring::Limited | Spring::Free => {}
         }
-        self.tuning.pass(gains);
         self.q_n = Some(proposal.q_n() + T * v_m);
         self.v_n = floored(v_n);
-        self.motion = proposal.motion;
+        self.motion = Motion::at(proposal.q, sample.dq);
+        self.tuning.pass();
     }
 }
 
 impl Sensed {
-    /// Energy stored at this tick, J. Not finite for alpha = 0.
-    #[inline]
-    pub fn stored(&self, settings: &Settings) -> Real {
-        let Self { gains, e, v_n, .. } = self;
-        storage::stored(settings.law, gains, settings.alpha, *e, *v_n)
-    }
-
-    /// The spring's part of it, J.
-    pub fn spring(&self, settings: &Settings) -> Real {
-        storage::spring(settings.law, &self.gains, self.e)
-    }
-
-    /// The nominal mass's part of it, J. Not finite for alpha = 0.
-    pub fn mass(&self, settings: &Settings) -> Real {
-        storage::mass(&self.gains, settings.alpha, self.v_n)
-    }
-
     /// Gives up energy: the position error and the nominal's velocity are reduced to these fractions, in [0, 1].
     pub fn reduce(&mut self, e: Real, v_n: Real) {
         self.e *= e;
@@ -218,6 +264,7 @@ impl Proposal {
     }
 
     /// Nominal position at this tick, m.
+    #[inline]
     pub fn q_n(&self) -> Real {
         self.q + self.sample.e
     }
@@ -235,53 +282,5 @@ impl Proposal {
     /// K y before any limit, N.
     pub fn f_demand(&self) -> Real {
         self.f_demand
-    }
-
-    /// K y within ±f_max, N.
-    pub fn f(&self) -> Real {
-        sat(self.f_demand, self.gains.f_max)
-    }
-
-    /// How the nominal moves if the robot gets the force `f` (N).
-    #[inline]
-    pub fn driven(&self, f: Real, settings: &Settings) -> Driven {
-        match settings.law.row().felt {
-            Felt::Delivered if f != self.f_demand => {
-                let (alpha, T) = (settings.reaction(), settings.T);
-                let y_s = f / self.gains.K;
-                let free = midpoint::driven(&self.gains, alpha, T, &self.sample, y_s);
-                let v_m = self.interval.keep(free);
-                Driven {
-                    v_m,
-                    held: v_m != free,
-                }
-            }
-            Felt::Delivered | Felt::Coupling | Felt::Nothing => self.wish,
-        }
-    }
-
-    /// Energy (J) that the law is sure to take in the sample that begins, if the robot gets the force `f` (N) and the nominal
-    /// feels it: what the human brings less what the nominal keeps, its damping, and the spring, which can be given up
-    /// afterwards.
-    ///
-    /// −ΔH + (K/alpha) f_h v_m T ≥ K y v_m T + (K/alpha) D_n v_m² T + ½ K K_P e²
-    #[inline]
-    pub fn taken(&self, f: Real, settings: &Settings) -> Real {
-        let Driven { v_m, .. } = self.driven(f, settings);
-        f * v_m * settings.T
-            + self.gains.K / settings.alpha * self.sample.D_n * v_m * v_m * settings.T
-            + storage::spring(settings.law, &self.gains, self.sample.e)
-    }
-
-    /// Energy (K/alpha) f_h v_m T that the human's port brings in the sample that begins, J. Not finite for alpha = 0.
-    #[inline]
-    pub fn supplied(&self, driven: Driven, settings: &Settings) -> Real {
-        midpoint::supplied(
-            &self.gains,
-            settings.alpha,
-            settings.T,
-            &self.sample,
-            driven.v_m,
-        )
     }
 }

@@ -86,9 +86,9 @@ impl<const N: usize> Ledger<N> {
         }
     }
 
-    /// The force `f` (N) is about to be said: the share of it that the tank covers, whatever the robot does within its reach
-    /// after the sample that ended with `settlement`. `taken(σ)` is the energy (J) that the law is sure to take in the sample
-    /// that begins with the share σ.
+    /// The share of the force `f` (N) that the tank covers, whatever the robot does within its reach after the sample that
+    /// ended with `settlement`. `taken(σ)` is the energy (J) that the law is sure to take in the sample that begins with the
+    /// share σ; `whole` is taken(1).
     ///
     /// need(σ) = σ max f·Δq − taken(σ) ≤ E
     ///
@@ -98,6 +98,7 @@ impl<const N: usize> Ledger<N> {
         &self,
         settlement: &Settlement<N>,
         f: &SVector<Real, N>,
+        whole: Real,
         taken: impl Fn(Real) -> Real,
     ) -> Real {
         let Terms {
@@ -117,6 +118,9 @@ impl<const N: usize> Ledger<N> {
         } else {
             reach.most_work(f, last, 1)
         };
+        if reserved + work - whole <= settlement.tank {
+            return 1.0;
+        }
         budget::share(|s| reserved + s * work - taken(s), settlement.tank)
     }
 

@@ -11,7 +11,7 @@
 use crate::{Gains, Real};
 
 /// What one sample of the law starts from.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Sample {
     /// Position error q_n − q, m.
     pub e: Real,

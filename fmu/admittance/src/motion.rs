@@ -36,22 +36,20 @@ impl Sampling {
 }
 
 impl Motion {
-    /// The motion after `q` (m) has been sensed at a tick.
-    #[must_use]
+    /// The velocity that the law uses when `q` (m) is sensed at a tick, m/s.
     #[inline]
-    pub fn sensed(&self, q: Real, sampling: &Sampling) -> Self {
-        let dq = self.q.map_or(0.0, |last| {
+    pub fn dq(&self, q: Real, sampling: &Sampling) -> Real {
+        self.q.map_or(0.0, |last| {
             let difference = (q - last) / sampling.T;
             match sampling.weight {
                 Some(weight) => floored(self.dq + weight * (difference - self.dq)),
                 None => difference,
             }
-        });
-        Self { q: Some(q), dq }
+        })
     }
 
-    /// The velocity that the law uses, m/s.
-    pub fn dq(&self) -> Real {
-        self.dq
+    /// The motion after a tick at `q` (m) with the velocity `dq` (m/s).
+    pub const fn at(q: Real, dq: Real) -> Self {
+        Self { q: Some(q), dq }
     }
 }

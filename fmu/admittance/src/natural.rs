@@ -87,8 +87,8 @@ impl Natural {
     pub fn step(&mut self, q: Real, f_h: Real) -> Tick {
         let Gains { D_n, K, f_max, .. } = self.gains;
         let T = self.T;
-        self.motion = self.motion.sensed(q, &self.sampling);
-        let dq = self.motion.dq();
+        let dq = self.motion.dq(q, &self.sampling);
+        self.motion = Motion::at(q, dq);
         let (q_d, v_d) = (self.q_d.unwrap_or(q), self.v_d);
         let e = q_d - q;
 

@@ -19,6 +19,9 @@ use crate::{Gains, Law, Real};
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Tuning<G> {
+    /// those of the last tick
+    last: G,
+    /// those of the next one
     now: G,
     wanted: G,
     /// ticks until the gains are those wanted
@@ -36,6 +39,7 @@ impl<G: Gradual> Tuning<G> {
     /// At their place.
     pub fn new(gains: G) -> Self {
         Self {
+            last: gains,
             now: gains,
             wanted: gains,
             remaining: 0,
@@ -48,31 +52,37 @@ impl<G: Gradual> Tuning<G> {
         if wanted != self.wanted {
             self.wanted = wanted;
             self.remaining = ticks.max(1);
+            self.now = self.last.toward(&wanted, self.remaining);
         }
     }
 
-    /// The gains at the last tick.
+    /// The gains at this tick.
+    #[inline]
     pub fn now(&self) -> &G {
         &self.now
     }
 
-    /// The gains at this tick, if they are others.
-    pub fn next(&self) -> Option<G> {
-        (self.remaining > 0).then(|| self.now.toward(&self.wanted, self.remaining))
+    /// The gains from which they take over at this tick, if they may be others.
+    #[inline]
+    pub fn changed_from(&self) -> Option<&G> {
+        (self.remaining > 0).then_some(&self.last)
     }
 
-    /// A tick has passed, at which the gains were the [next](Self::next) ones.
-    pub fn pass(&mut self, gains: &G) {
+    /// A tick has passed.
+    #[inline]
+    pub fn pass(&mut self) {
         if self.remaining > 0 {
-            self.now = *gains;
             self.remaining -= 1;
+            self.last = self.now;
+            if self.remaining > 0 {
+                self.now = self.last.toward(&self.wanted, self.remaining);
+            }
         }
     }
 
     /// At their place at once: nothing is stored that could rise.
     pub fn finish(&mut self) {
-        self.now = self.wanted;
-        self.remaining = 0;
+        *self = Self::new(self.wanted);
     }
 }
 

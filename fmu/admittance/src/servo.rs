@@ -157,8 +157,8 @@ impl Servo {
             settings, gains, ..
         } = *self;
         let T = settings.T;
-        self.motion = self.motion.sensed(q, &self.sampling);
-        let dq = self.motion.dq();
+        let dq = self.motion.dq(q, &self.sampling);
+        self.motion = Motion::at(q, dq);
         let e = self
             .q_n
             .map_or(0.0, |q_n| storage::slipped(settings.law, &gains, q_n - q));

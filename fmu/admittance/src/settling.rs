@@ -1,7 +1,8 @@
 //! A sample that has ended: what it created, and what is given up for it.
 
 use crate::ledger::Ledger;
-use crate::{Real, Settings, real};
+use crate::tick::Coordinates;
+use crate::{Real, real};
 use nalgebra::SVector;
 
 /// The sample that ended, settled: what [`Ledger::book`] takes over. Nothing has happened until then.
@@ -51,38 +52,26 @@ pub struct Keep {
     pub v_n: Real,
 }
 
-/// A law at a tick, once the position is known: what it stores and can give up.
-pub trait Stored {
-    /// Energy stored, J. Not finite for alpha = 0.
-    fn stored(&self, settings: &Settings) -> Real;
-    /// The springs' part of it, J.
-    fn spring(&self, settings: &Settings) -> Real;
-    /// The nominal masses' part of it, J; not as a difference, which would round like the whole.
-    fn masses(&self, settings: &Settings) -> Real;
-    /// Gives up all but these fractions of the position errors and of the nominal velocities.
-    fn reduce(&mut self, keep: Keep);
-}
-
 /// What rounding may take from the tank in a sample, relative to the terms of ΔG.
 const A_SAMPLE: Real = 64.0 * Real::EPSILON;
 
 impl<const N: usize> Ledger<N> {
-    /// Settles the sample that ends now at the position `q` (m). Where the tank is kept, `law` gives up as much of what it
-    /// stores as must be for the tank to stay ≥ 0.
+    /// Settles the sample that ends now at the position `q` (m). Where the tank is kept, the law as it was `sensed` gives up
+    /// as much of what it stores as must be for the tank to stay ≥ 0.
     #[inline]
-    pub fn settle<S: Stored>(
+    pub fn settle<L: Coordinates<N>>(
         &self,
-        law: &mut S,
-        settings: &Settings,
+        law: &L,
+        sensed: &mut L::Sensed,
         q: &SVector<Real, N>,
     ) -> Settlement<N> {
-        let H = law.stored(settings);
-        if !self.terms.kept || self.created(H, q) <= self.tank {
-            return self.close(H, q);
+        let mut H = law.stored(sensed);
+        if self.terms.kept && !(self.created(H, q) <= self.tank) {
+            let keep = self.affordable(law.springs(sensed), law.masses(sensed), q);
+            law.reduce(sensed, keep);
+            H = law.stored(sensed);
         }
-        let keep = self.affordable(law.spring(settings), law.masses(settings), q);
-        law.reduce(keep);
-        self.close(law.stored(settings), q)
+        self.close(H, q)
     }
 
     /// What may be kept at this tick, with the position `q` (m), of the energy that the law stores in its springs and in its
@@ -90,6 +79,7 @@ impl<const N: usize> Ledger<N> {
     ///
     /// It is found without the springs' energy, which can be many times what is left of it: a difference of the two would
     /// leave the larger one's rounding.
+    #[cold]
     fn affordable(&self, spring: Real, masses: Real, q: &SVector<Real, N>) -> Keep {
         let affordable = self.tank - self.created(0.0, q);
         let fraction = |energy: Real, affordable: Real| {

@@ -89,8 +89,8 @@ impl SlidingMode {
     pub fn step(&mut self, q: Real, f_h: Real) -> Tick {
         let Gains { K, K_P, f_max, .. } = self.gains;
         let (T, H) = (self.T, self.H);
-        self.motion = self.motion.sensed(q, &self.sampling);
-        let dq = self.motion.dq();
+        let dq = self.motion.dq(q, &self.sampling);
+        self.motion = Motion::at(q, dq);
         let (q_n, v_n) = (self.q_n.unwrap_or(q), self.v_n);
 
         let sample = Sample {
