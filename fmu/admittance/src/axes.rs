@@ -82,7 +82,7 @@ impl<const N: usize> Axes<N> {
             settings,
             sampling: Sampling::new(&settings),
             tuning_ticks: settings.tuning_ticks(),
-            axes: SVector::from(gains).map(Axis::new),
+            axes: SVector::from(gains).map(|gains| Axis::new(&settings, gains)),
             engaged: false,
         })
     }
@@ -108,7 +108,10 @@ impl<const N: usize> Axes<N> {
     pub fn tune(&mut self, gains: [Gains; N]) -> Result<(), ParameterError> {
         check(&gains)?;
         for (axis, gains) in self.axes.iter_mut().zip(gains) {
-            axis.tune(gains, self.tuning_ticks);
+            axis.tune(gains, self.tuning_ticks, &self.settings);
+            if !self.engaged {
+                axis.settle_gains(&self.settings);
+            }
         }
         Ok(())
     }
@@ -131,20 +134,24 @@ impl<const N: usize> Coordinates<N> for Axes<N> {
 
     #[inline]
     fn sense(&self, q: &SVector<Real, N>) -> Sensed<N> {
-        each(|i| self.axes[i].sense(q[i], &self.settings, &self.sampling))
+        if self.engaged {
+            each(|i| self.axes[i].sense(q[i], &self.settings, &self.sampling))
+        } else {
+            each(|i| self.axes[i].engage(q[i]))
+        }
     }
 
     #[inline]
     fn stored(&self, sensed: &Sensed<N>) -> Real {
-        sum::<N>(|i| self.axes[i].stored(&sensed[i], &self.settings))
+        sum::<N>(|i| self.axes[i].stored(&sensed[i]))
     }
 
     fn springs(&self, sensed: &Sensed<N>) -> Real {
-        sum::<N>(|i| self.axes[i].spring(&sensed[i], &self.settings))
+        sum::<N>(|i| self.axes[i].spring(&sensed[i]))
     }
 
     fn masses(&self, sensed: &Sensed<N>) -> Real {
-        sum::<N>(|i| self.axes[i].mass(&sensed[i], &self.settings))
+        sum::<N>(|i| self.axes[i].mass(&sensed[i]))
     }
 
     fn reduce(&self, sensed: &mut Sensed<N>, keep: Keep) {
@@ -160,7 +167,8 @@ impl<const N: usize> Coordinates<N> for Axes<N> {
         f_h: &SVector<Real, N>,
         request: &Request<N>,
     ) -> Proposal<N> {
-        each(|i| self.axes[i].propose(&sensed[i], f_h[i], &request.of(i), &self.settings))
+        let T = self.settings.T;
+        each(|i| self.axes[i].propose(&sensed[i], f_h[i], &request.of(i), T))
     }
 
     #[inline]
@@ -170,7 +178,11 @@ impl<const N: usize> Coordinates<N> for Axes<N> {
 
     #[inline]
     fn driven(&self, proposal: &Proposal<N>, f: &SVector<Real, N>) -> [axis::Driven; N] {
-        each(|i| self.axes[i].driven(&proposal[i], f[i], &self.settings))
+        if self.settings.law.row().feels_what_is_delivered() {
+            each(|i| self.axes[i].driven(&proposal[i], f[i]))
+        } else {
+            each(|i| proposal[i].wish())
+        }
     }
 
     #[inline]
@@ -180,12 +192,12 @@ impl<const N: usize> Coordinates<N> for Axes<N> {
         driven: &[axis::Driven; N],
         f: &SVector<Real, N>,
     ) -> Real {
-        sum::<N>(|i| self.axes[i].taken(&proposal[i], driven[i], f[i], &self.settings))
+        sum::<N>(|i| self.axes[i].taken(&proposal[i], driven[i], f[i]))
     }
 
     #[inline]
     fn supplied(&self, proposal: &Proposal<N>, driven: &[axis::Driven; N]) -> Real {
-        sum::<N>(|i| self.axes[i].supplied(&proposal[i], driven[i], &self.settings))
+        sum::<N>(|i| self.axes[i].supplied(&proposal[i], driven[i]))
     }
 
     #[inline]
@@ -203,14 +215,17 @@ impl<const N: usize> Coordinates<N> for Axes<N> {
 
     #[inline]
     fn commit(&mut self, proposal: &Proposal<N>, driven: &[axis::Driven; N], f: &SVector<Real, N>) {
+        let slips = self.settings.law.row().slips();
         for i in 0..N {
-            self.axes[i].commit(&proposal[i], driven[i], f[i], &self.settings);
+            self.axes[i].commit(&proposal[i], driven[i], f[i], slips, &self.settings);
         }
         self.engaged = true;
     }
 
     fn rest(&mut self) {
-        self.axes.iter_mut().for_each(Axis::rest);
+        for axis in &mut self.axes {
+            axis.settle_gains(&self.settings);
+        }
         self.engaged = false;
     }
 }

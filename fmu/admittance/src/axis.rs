@@ -1,12 +1,11 @@
 //! One axis: slip, midpoint, clamp, reset.
 
 use crate::bounds::Interval;
-use crate::law::{Felt, Spring};
-use crate::midpoint::{self, Midpoint, Sample, slower};
+use crate::midpoint::{self, Midpoint, Rule, Sample, slower};
 use crate::motion::Sampling;
 use crate::real::{floored, sat};
 use crate::retune::{self, Tuning};
-use crate::{Bounds, Gains, Motion, Real, Settings, storage};
+use crate::{Bounds, Gains, Real, Settings};
 
 /// One axis of the law between two ticks.
 ///
@@ -15,12 +14,23 @@ use crate::{Bounds, Gains, Motion, Real, Settings, storage};
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Axis {
     tuning: Tuning<Gains>,
+    /// that of the gains at this tick
+    rule: Rule,
     /// none where nothing is bounded
     bounds: Option<Bounds>,
-    /// the nominal's position, while the axis is in the loop
-    q_n: Option<Real>,
+    /// the last tick in the loop
+    last: Last,
+}
+
+/// What is remembered of a tick.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+struct Last {
+    q: Real,
+    dq: Real,
+    /// where the nominal goes from there, m and m/s
+    q_n: Real,
     v_n: Real,
-    motion: Motion,
 }
 
 /// One axis at a tick, once the position is known.
@@ -69,23 +79,25 @@ pub struct Driven {
 
 impl Axis {
     /// Out of the loop. The caller has checked the gains.
-    pub fn new(gains: Gains) -> Self {
+    pub fn new(settings: &Settings, gains: Gains) -> Self {
         Self {
             tuning: Tuning::new(gains),
+            rule: Rule::new(settings, &gains),
             bounds: None,
-            q_n: None,
-            v_n: 0.0,
-            motion: Motion::default(),
+            last: Last::default(),
         }
     }
 
-    /// On its way to other gains, which it has after `ticks` ticks; at once while it is out of the loop. The caller has
-    /// checked them.
-    pub fn tune(&mut self, wanted: Gains, ticks: u32) {
+    /// On its way to other gains, which it has after `ticks` ticks. The caller has checked them.
+    pub fn tune(&mut self, wanted: Gains, ticks: u32, settings: &Settings) {
         self.tuning.want(wanted, ticks);
-        if self.q_n.is_none() {
-            self.tuning.finish();
-        }
+        self.rule = Rule::new(settings, self.tuning.now());
+    }
+
+    /// At the gains last wanted, at once: the axis is out of the loop.
+    pub fn settle_gains(&mut self, settings: &Settings) {
+        self.tuning.finish();
+        self.rule = Rule::new(settings, self.tuning.now());
     }
 
     /// Within other bounds from the next tick on. The caller has checked them.
@@ -93,159 +105,146 @@ impl Axis {
         self.bounds = (bounds != Bounds::default()).then_some(bounds);
     }
 
-    /// Out of the loop: nothing is stored, nothing known of the motion. The next tick engages with q_n = q, v_n = 0 and the
-    /// gains last wanted.
-    pub fn rest(&mut self) {
-        self.tuning.finish();
-        (self.q_n, self.v_n, self.motion) = (None, 0.0, Motion::default());
+    /// The axis engages at the position `q` (m): q_n = q, v_n = 0, nothing is known of the motion.
+    pub fn engage(&self, q: Real) -> Sensed {
+        Sensed {
+            q,
+            dq: 0.0,
+            e: self.rule.spring.slipped(q - q),
+            v_n: 0.0,
+        }
     }
 
-    /// The gains at this tick.
-    #[inline]
-    fn gains(&self) -> &Gains {
-        self.tuning.now()
-    }
-
-    /// The axis at a tick with position `q` (m): gains on their way take over, the spring slips.
+    /// The axis in the loop at a tick with position `q` (m): gains on their way take over, the spring slips.
     #[inline]
     pub fn sense(&self, q: Real, settings: &Settings, sampling: &Sampling) -> Sensed {
-        let (mut e, mut v_n) = (self.q_n.unwrap_or(q) - q, self.v_n);
-        if let Some(last) = self.tuning.changed_from() {
-            (e, v_n) = retune::taken_over(settings.law, last, self.gains(), e, v_n);
+        let last = &self.last;
+        let (mut e, mut v_n) = (last.q_n - q, last.v_n);
+        if let Some(gains) = self.tuning.changed_from() {
+            (e, v_n) = retune::taken_over(settings.law, gains, self.tuning.now(), e, v_n);
         }
         Sensed {
             q,
-            dq: self.motion.dq(q, sampling),
-            e: storage::slipped(settings.law, self.gains(), e),
+            dq: sampling.dq(last.q, last.dq, q),
+            e: self.rule.spring.slipped(e),
             v_n,
         }
     }
 
     /// Energy stored at this tick, J. Not finite for alpha = 0.
     #[inline]
-    pub fn stored(&self, sensed: &Sensed, settings: &Settings) -> Real {
-        let Sensed { e, v_n, .. } = *sensed;
-        storage::stored(settings.law, self.gains(), settings.alpha, e, v_n)
+    pub fn stored(&self, sensed: &Sensed) -> Real {
+        self.rule.stored(sensed.e, sensed.v_n)
     }
 
     /// The spring's part of it, J.
-    pub fn spring(&self, sensed: &Sensed, settings: &Settings) -> Real {
-        storage::spring(settings.law, self.gains(), sensed.e)
+    pub fn spring(&self, sensed: &Sensed) -> Real {
+        self.rule.spring.energy(sensed.e)
     }
 
     /// The nominal mass's part of it, J. Not finite for alpha = 0.
-    pub fn mass(&self, sensed: &Sensed, settings: &Settings) -> Real {
-        storage::mass(self.gains(), settings.alpha, sensed.v_n)
+    pub fn mass(&self, sensed: &Sensed) -> Real {
+        self.rule.mass.energy(sensed.v_n)
     }
 
     /// What the axis asks for with the human's force `f_h` (N): nominal and coupling are solved together, within the
     /// bounds and the `request`.
     #[inline]
-    pub fn propose(
-        &self,
-        sensed: &Sensed,
-        f_h: Real,
-        request: &Request,
-        settings: &Settings,
-    ) -> Proposal {
-        let (gains, T) = (self.gains(), settings.T);
+    pub fn propose(&self, sensed: &Sensed, f_h: Real, request: &Request, T: Real) -> Proposal {
+        let rule = &self.rule;
         let Sensed { q, dq, e, v_n } = *sensed;
         let sample = Sample {
             e,
             v_n,
             dq,
             f_h,
-            D_n: gains.D_n + request.damping,
+            damping: request.damping,
         };
         let interval = Interval::within(self.bounds.as_ref(), q + e, T, request.hold)
             .no_faster_than(request.speed);
-        let Midpoint { v_m: free, mut y } =
-            midpoint::coupled(gains, settings.reaction(), T, &sample);
-        let v_m = interval.keep(free);
-        let held = v_m != free;
-        if held {
-            y = midpoint::coupling(gains, T, &sample, v_m);
+        let Midpoint { v_m: free, mut y } = rule.coupled(&sample);
+        let wish = Driven::within(&interval, free);
+        if wish.held {
+            y = rule.coupling(&sample, wish.v_m);
         }
         Proposal {
             q,
             sample,
             interval,
-            wish: Driven { v_m, held },
-            f_demand: gains.K * y,
+            wish,
+            f_demand: rule.gains.K * y,
         }
     }
 
     /// What the axis asks for within ±f_max, N.
     #[inline]
     pub fn f(&self, proposal: &Proposal) -> Real {
-        sat(proposal.f_demand, self.gains().f_max)
+        sat(proposal.f_demand, self.rule.gains.f_max)
     }
 
-    /// How the nominal moves if the robot gets the force `f` (N).
+    /// How a nominal moves that feels the force `f` (N), which the robot gets.
     #[inline]
-    pub fn driven(&self, proposal: &Proposal, f: Real, settings: &Settings) -> Driven {
-        let Proposal {
-            sample,
-            interval,
-            wish,
-            f_demand,
-            ..
-        } = proposal;
-        match settings.law.row().felt {
-            Felt::Delivered if f != *f_demand => {
-                let (alpha, T) = (settings.reaction(), settings.T);
-                let y_s = f / self.gains().K;
-                let free = midpoint::driven(self.gains(), alpha, T, sample, y_s);
-                let v_m = interval.keep(free);
-                Driven {
-                    v_m,
-                    held: v_m != free,
-                }
-            }
-            Felt::Delivered | Felt::Coupling | Felt::Nothing => *wish,
+    pub fn driven(&self, proposal: &Proposal, f: Real) -> Driven {
+        if f == proposal.f_demand {
+            return proposal.wish;
         }
+        let y_s = f / self.rule.gains.K;
+        Driven::within(&proposal.interval, self.rule.driven(&proposal.sample, y_s))
     }
 
-    /// Energy (J) that the law is sure to take in the sample that begins, if the robot gets the force `f` (N) and the nominal
-    /// is `driven` by it: what the human brings less what the nominal keeps, its damping, and the spring, which can be given
-    /// up afterwards.
-    ///
-    /// −ΔH + (K/alpha) f_h v_m T ≥ K y v_m T + (K/alpha) D_n v_m² T + ½ K K_P e²
+    /// Energy (J) that the law is sure to take in the sample that begins: [`Rule::taken`].
     #[inline]
-    pub fn taken(&self, proposal: &Proposal, driven: Driven, f: Real, settings: &Settings) -> Real {
-        let (gains, sample, v_m) = (self.gains(), &proposal.sample, driven.v_m);
-        f * v_m * settings.T
-            + gains.K / settings.alpha * sample.D_n * v_m * v_m * settings.T
-            + storage::spring(settings.law, gains, sample.e)
+    pub fn taken(&self, proposal: &Proposal, driven: Driven, f: Real) -> Real {
+        self.rule.taken(&proposal.sample, f, driven.v_m)
     }
 
     /// Energy (K/alpha) f_h v_m T that the human's port brings in the sample that begins, J. Not finite for alpha = 0.
     #[inline]
-    pub fn supplied(&self, proposal: &Proposal, driven: Driven, settings: &Settings) -> Real {
-        let Settings { alpha, T, .. } = *settings;
-        midpoint::supplied(self.gains(), alpha, T, &proposal.sample, driven.v_m)
+    pub fn supplied(&self, proposal: &Proposal, driven: Driven) -> Real {
+        self.rule.supplied(&proposal.sample, driven.v_m)
     }
 
     /// The nominal moves on as `driven`, while the robot gets the force `f` (N), which the caller's limits left of what the
-    /// axis asked for.
+    /// axis asked for. Where its spring `slips` it is set back.
     #[inline]
-    pub fn commit(&mut self, proposal: &Proposal, driven: Driven, f: Real, settings: &Settings) {
-        let (gains, sample, T) = (self.gains(), &proposal.sample, settings.T);
+    pub fn commit(
+        &mut self,
+        proposal: &Proposal,
+        driven: Driven,
+        f: Real,
+        slips: bool,
+        settings: &Settings,
+    ) {
+        let (rule, sample) = (&self.rule, &proposal.sample);
         let Driven { v_m, held } = driven;
         let mut v_n = midpoint::end(sample, v_m);
         if held {
             v_n = slower(v_n, v_m);
         }
-        match settings.law.row().spring {
-            Spring::Slips if f != proposal.f_demand => {
-                v_n = slower(v_n, midpoint::at_the_bound(gains, T, sample, f / gains.K));
-            }
-            Spring::Slips | Spring::Limited | Spring::Free => {}
+        if slips && f != proposal.f_demand {
+            v_n = slower(v_n, rule.at_the_bound(sample, f / rule.gains.K));
         }
-        self.q_n = Some(proposal.q_n() + T * v_m);
-        self.v_n = floored(v_n);
-        self.motion = Motion::at(proposal.q, sample.dq);
-        self.tuning.pass();
+        self.last = Last {
+            q: proposal.q,
+            dq: sample.dq,
+            q_n: proposal.q_n() + settings.T * v_m,
+            v_n: floored(v_n),
+        };
+        if self.tuning.pass() {
+            self.rule = Rule::new(settings, self.tuning.now());
+        }
+    }
+}
+
+impl Driven {
+    /// With the velocity `free` (m/s) as far as it lies within `interval`.
+    #[inline]
+    fn within(interval: &Interval, free: Real) -> Self {
+        let v_m = interval.keep(free);
+        Self {
+            v_m,
+            held: v_m != free,
+        }
     }
 }
 
@@ -277,6 +276,11 @@ impl Proposal {
     /// The robot's velocity as the law uses it, m/s.
     pub fn dq(&self) -> Real {
         self.sample.dq
+    }
+
+    /// How the nominal moves if the whole of K y acts on it.
+    pub fn wish(&self) -> Driven {
+        self.wish
     }
 
     /// K y before any limit, N.

@@ -12,7 +12,7 @@
 //! | D_n, or f_max otherwise | all | neither stores; the next slip sees the new bound |
 
 use crate::real::{self, sat};
-use crate::storage::{extension, spring};
+use crate::storage::Spring;
 use crate::{Gains, Law, Real};
 
 /// Gains on their way to other ones.
@@ -68,16 +68,18 @@ impl<G: Gradual> Tuning<G> {
         (self.remaining > 0).then_some(&self.last)
     }
 
-    /// A tick has passed.
+    /// A tick has passed. Returns whether the gains of the next one may be others.
     #[inline]
-    pub fn pass(&mut self) {
-        if self.remaining > 0 {
-            self.remaining -= 1;
-            self.last = self.now;
-            if self.remaining > 0 {
-                self.now = self.last.toward(&self.wanted, self.remaining);
-            }
+    pub fn pass(&mut self) -> bool {
+        if self.remaining == 0 {
+            return false;
         }
+        self.remaining -= 1;
+        self.last = self.now;
+        if self.remaining > 0 {
+            self.now = self.last.toward(&self.wanted, self.remaining);
+        }
+        true
     }
 
     /// At their place at once: nothing is stored that could rise.
@@ -94,6 +96,6 @@ pub fn taken_over(law: Law, from: &Gains, to: &Gains, e: Real, v_n: Real) -> (Re
     let spring_ratio = from.K * from.K_P / (to.K * to.K_P);
     let mass_ratio = from.K * from.M_n / (to.K * to.M_n);
     let e_kept = e * spring_ratio.min(1.0);
-    let e_most = extension(law, to, spring(law, from, e));
+    let e_most = Spring::new(law, to).extension(Spring::new(law, from).energy(e));
     (sat(e_kept, e_most), v_n * real::sqrt(mass_ratio.min(1.0)))
 }

@@ -2,7 +2,6 @@
 
 use crate::ArmController;
 use crate::variables::{JOINT, TASK};
-use admittance::law::Spring;
 use admittance::{Bounds, Gains, Law, ParameterError, Reach, Settings};
 use arm_law::arm_law::{Parameters, Space};
 use arm_law::joint_space::JointParameters;
@@ -126,12 +125,13 @@ impl ArmController {
         for (i, gains) in (1..).zip(&gains) {
             gains.check(Some(i)).map_err(refusal)?;
         }
-        Ok(match law.row().spring {
-            Spring::Slips => gains,
-            Spring::Free | Spring::Limited => gains.map(|gains| Gains {
+        Ok(if law.row().slips() {
+            gains
+        } else {
+            gains.map(|gains| Gains {
                 f_max: f64::INFINITY,
                 ..gains
-            }),
+            })
         })
     }
 }

@@ -1,7 +1,6 @@
 //! What may be changed while the law runs.
 
 use crate::Real;
-use admittance::law::Spring;
 use admittance::{Bounds, Law};
 use nalgebra::Vector3;
 
@@ -106,13 +105,12 @@ impl From<AxisGains> for admittance::Gains {
 
 /// The gains that a law uses: f_max of the arm belongs to a spring that slips.
 pub(crate) fn limited_under(law: Law, gains: admittance::Gains) -> admittance::Gains {
-    match law.row().spring {
-        Spring::Slips => gains,
-        Spring::Free | Spring::Limited => admittance::Gains {
-            f_max: Real::INFINITY,
-            ..gains
-        },
-    }
+    let f_max = if law.row().slips() {
+        gains.f_max
+    } else {
+        Real::INFINITY
+    };
+    admittance::Gains { f_max, ..gains }
 }
 
 /// A limit of the interface, where 0 stands for none.

@@ -10,7 +10,6 @@ use crate::kinematics::{Kinematics, SinCos, sin_cos};
 use crate::nominal::transport::transported;
 use crate::nominal::{NominalArm, RigidBody};
 use admittance::bounds::{Bounds, Interval};
-use admittance::law::{Felt, Spring};
 use admittance::motion::Sampling;
 use admittance::real::{floored, sat};
 use admittance::retune::Tuning;
@@ -279,12 +278,11 @@ impl Coordinates<3> for Joints {
     /// K y of each joint within ±tau_max where the nominal feels what is delivered, else K y, which the caller's limits may
     /// cut as they like.
     fn f(&self, proposal: &Proposal) -> Vector3<Real> {
-        match self.settings.law.row().felt {
-            Felt::Delivered => {
-                let tau_max = &self.tuning.now().tau_max;
-                proposal.tau_demand.zip_map(tau_max, sat)
-            }
-            Felt::Nothing | Felt::Coupling => proposal.tau_demand,
+        if self.settings.law.row().feels_what_is_delivered() {
+            let tau_max = &self.tuning.now().tau_max;
+            proposal.tau_demand.zip_map(tau_max, sat)
+        } else {
+            proposal.tau_demand
         }
     }
 
@@ -296,12 +294,11 @@ impl Coordinates<3> for Joints {
             tau_demand,
             ..
         } = proposal;
-        match self.settings.law.row().felt {
-            Felt::Delivered if tau != tau_demand => {
-                let (alpha, T) = (self.settings.reaction(), self.settings.T);
-                midpoint::driven(alpha, T, sample, &(tau / self.tuning.now().K), intervals)
-            }
-            Felt::Delivered | Felt::Coupling | Felt::Nothing => *wish,
+        if self.settings.law.row().feels_what_is_delivered() && tau != tau_demand {
+            let (alpha, T) = (self.settings.reaction(), self.settings.T);
+            midpoint::driven(alpha, T, sample, &(tau / self.tuning.now().K), intervals)
+        } else {
+            *wish
         }
     }
 
@@ -340,13 +337,10 @@ impl Coordinates<3> for Joints {
         } = proposal;
         let Solution { v_m, held } = driven;
         let mut v_n = slower(body, v_m * 2.0 - sample.v_n, v_m, held);
-        match law.row().spring {
-            Spring::Slips if tau != tau_demand => {
-                let v_b = midpoint::at_the_bound(gains, T, sample, &(tau / gains.K));
-                let limited = tau.zip_map(tau_demand, |tau, asked| tau != asked);
-                v_n = slower(body, v_n, &v_b, &limited);
-            }
-            Spring::Slips | Spring::Limited | Spring::Free => {}
+        if law.row().slips() && tau != tau_demand {
+            let v_b = midpoint::at_the_bound(gains, T, sample, &(tau / gains.K));
+            let limited = tau.zip_map(tau_demand, |tau, asked| tau != asked);
+            v_n = slower(body, v_n, &v_b, &limited);
         }
         self.state = Some(State {
             q: *q,
