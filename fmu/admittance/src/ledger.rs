@@ -110,8 +110,9 @@ impl<const N: usize> Ledger<N> {
         if !kept {
             return 1.0;
         }
-        let last = settlement.foretelling();
-        let reserved = self.reserved(settlement);
+        let Settlement { step, outside, .. } = settlement;
+        let last = foretelling(step.as_ref(), *outside);
+        let reserved = self.reserved(step.as_ref(), *outside);
         let work = if *delayed {
             // Not less than 0: what a force takes from the robot in the next sample cannot pay for this one.
             real::max(0.0, reach.most_work(f, last, 2))
@@ -124,22 +125,29 @@ impl<const N: usize> Ledger<N> {
         budget::share(|s| reserved + s * work - taken(s), settlement.tank)
     }
 
-    /// Most work (J), in the sample that begins after `settlement`, of a force that has been said a sample ago.
+    /// Most work (J) of a force that has been said a sample ago, in the sample that begins after the motion `step` (m).
     #[inline]
-    pub(crate) fn reserved(&self, settlement: &Settlement<N>) -> Real {
+    pub(crate) fn reserved(&self, step: Option<&SVector<Real, N>>, outside: bool) -> Real {
         if self.terms.delayed {
-            let last = settlement.foretelling();
+            let last = foretelling(step, outside);
             self.terms.reach.most_work(&self.commanded, last, 1)
         } else {
             0.0
         }
     }
 
-    /// Takes over the sample that ended, and opens the one that begins: with the force `f` (N) on the robot that this tick
-    /// says, and the energy (K/alpha) f_h v_m T (J) that the human's port brings.
+    /// Takes over the sample that ended at the position `q` (m), if it is known, and opens the one that begins: with the force
+    /// `f` (N) on the robot that this tick says, and the energy (K/alpha) f_h v_m T (J) that the human's port brings.
     #[inline]
-    pub fn book(&mut self, ended: &Settlement<N>, f: &SVector<Real, N>, supplied: Real) {
-        (self.q, self.step, self.outside) = (ended.q, ended.step, ended.outside);
+    pub fn book(
+        &mut self,
+        ended: &Settlement<N>,
+        q: Option<&SVector<Real, N>>,
+        f: &SVector<Real, N>,
+        supplied: Real,
+    ) {
+        self.q = q.copied();
+        (self.step, self.outside) = (ended.step, ended.outside);
         (self.H, self.G, self.tank) = (ended.H, ended.G, ended.tank);
         self.rounding = ended.rounding;
         if self.terms.defined {
@@ -157,23 +165,9 @@ impl<const N: usize> Ledger<N> {
         self.q = self.q.map(|q| q - by);
     }
 
-    /// The ledger as it stands, without the sample that ends now.
-    #[inline]
-    pub(crate) fn unsettled(&self) -> Settlement<N> {
-        Settlement {
-            q: self.q,
-            step: self.step,
-            outside: self.outside,
-            H: self.H,
-            G: self.G,
-            tank: self.tank,
-            rounding: self.rounding,
-        }
-    }
-
     /// The last motion (m), as far as it says anything on the next one.
     pub(crate) fn foretelling(&self) -> Option<&SVector<Real, N>> {
-        self.step.as_ref().filter(|_| !self.outside)
+        foretelling(self.step.as_ref(), self.outside)
     }
 
     /// Whether there is an energy to speak of: alpha > 0.
@@ -209,10 +203,11 @@ impl<const N: usize> Ledger<N> {
     }
 }
 
-impl<const N: usize> Settlement<N> {
-    /// The motion (m), as far as it says anything on the next one: not when it left the reach.
-    #[inline]
-    pub(crate) fn foretelling(&self) -> Option<&SVector<Real, N>> {
-        self.step.as_ref().filter(|_| !self.outside)
-    }
+/// The motion `step` (m), as far as it says anything on the next one: not when it left the reach.
+#[inline]
+fn foretelling<const N: usize>(
+    step: Option<&SVector<Real, N>>,
+    outside: bool,
+) -> Option<&SVector<Real, N>> {
+    step.filter(|_| !outside)
 }

@@ -9,8 +9,6 @@ use nalgebra::SVector;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[must_use]
 pub struct Settlement<const N: usize> {
-    /// Position at its end, m, if it is known.
-    pub(crate) q: Option<SVector<Real, N>>,
     /// Its motion, m, if it can foretell the next one.
     pub(crate) step: Option<SVector<Real, N>>,
     /// Whether that motion left the reach.
@@ -101,21 +99,14 @@ impl<const N: usize> Ledger<N> {
     /// given up.
     #[inline]
     pub fn close(&self, H: Real, q: &SVector<Real, N>) -> Settlement<N> {
-        let step = self.q.map(|last| q - last);
-        let seen = Settlement {
-            q: Some(*q),
-            step,
-            outside: step.is_some_and(|step| {
-                let reach = &self.terms.reach;
-                reach.is_left(&step, self.step.as_ref())
-            }),
-            ..self.unsettled()
-        };
+        let step = self.q.as_ref().map(|last| q - last);
+        let reach = &self.terms.reach;
+        let outside = step.is_some_and(|step| reach.is_left(&step, self.step.as_ref()));
         if !self.terms.defined {
-            return seen;
+            return self.unpaid(step, outside);
         }
         let created = self.created(H, q);
-        self.paid(seen, H, created, || self.size(H, q))
+        self.paid(step, outside, H, created, || self.size(H, q))
     }
 
     /// Settles the sample that ends now at a position that is not known, with nothing left stored: the tank pays for the most
@@ -126,35 +117,44 @@ impl<const N: usize> Ledger<N> {
             .terms
             .reach
             .most_work(&self.acting, self.foretelling(), 1);
-        let unseen = Settlement {
-            q: None,
-            step: None,
-            outside: false,
-            ..self.unsettled()
-        };
         let created = most - self.H - self.supplied;
         if !self.terms.defined || !(self.G + created).is_finite() {
-            return unseen;
+            return self.unpaid(None, false);
         }
-        self.paid(unseen, 0.0, created, || {
+        self.paid(None, false, 0.0, created, || {
             real::abs(self.tank) + real::abs(most) + self.H + real::abs(self.supplied)
         })
     }
 
-    /// The `sample` paid for by the tank: it `created` so much (J), and `H` (J) is stored now. `size` gives the terms of ΔG at
-    /// their sizes, J.
+    /// A sample with the motion `step` (m), that left the reach or not, for which nothing is paid.
+    fn unpaid(&self, step: Option<SVector<Real, N>>, outside: bool) -> Settlement<N> {
+        Settlement {
+            step,
+            outside,
+            H: self.H,
+            G: self.G,
+            tank: self.tank,
+            rounding: self.rounding,
+        }
+    }
+
+    /// The same paid for by the tank: the sample `created` so much (J), and `H` (J) is stored now. `size` gives the terms of
+    /// ΔG at their sizes, J.
     #[inline]
     fn paid(
         &self,
-        sample: Settlement<N>,
+        step: Option<SVector<Real, N>>,
+        outside: bool,
         H: Real,
         created: Real,
         size: impl FnOnce() -> Real,
     ) -> Settlement<N> {
         // With a delay, a force has been said that acts only now: what may cover it is not poured away.
-        let most = real::max(self.terms.E_0, self.reserved(&sample));
+        let most = real::max(self.terms.E_0, self.reserved(step.as_ref(), outside));
         let tank = real::min(self.tank - created, most);
         Settlement {
+            step,
+            outside,
             H,
             G: self.G + created,
             tank,
@@ -163,7 +163,6 @@ impl<const N: usize> Ledger<N> {
             } else {
                 0.0
             },
-            ..sample
         }
     }
 

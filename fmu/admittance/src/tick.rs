@@ -247,7 +247,7 @@ impl<L: Coordinates<N>, const N: usize> Sampled<L, N> {
             return Err(Refused);
         }
         self.law.commit(&proposal, &driven, &f);
-        self.book(&settlement, f, tau, supplied);
+        self.book(&settlement, Some(inputs.q), f, tau, supplied);
         Ok(())
     }
 
@@ -273,11 +273,12 @@ impl<L: Coordinates<N>, const N: usize> Sampled<L, N> {
     fn book(
         &mut self,
         ended: &Settlement<N>,
+        q: Option<&SVector<Real, N>>,
         f: SVector<Real, N>,
         tau: SVector<Real, N>,
         supplied: Real,
     ) {
-        self.ledger.book(ended, &tau, supplied);
+        self.ledger.book(ended, q, &tau, supplied);
         (self.f, self.tau) = (f, tau);
     }
 
@@ -295,19 +296,19 @@ impl<L: Coordinates<N>, const N: usize> Sampled<L, N> {
         if !accept(settlement.G()) {
             return Err(Refused);
         }
-        Ok(self.leave(&settlement))
+        Ok(self.leave(&settlement, Some(q)))
     }
 
     /// The same where the actuators' positions at this tick are not known, or no numbers: the tank pays for the most that the
     /// forces can have done since the last one.
     pub fn abandon(&mut self) -> bool {
         let settlement = self.ledger.close_unseen();
-        self.leave(&settlement)
+        self.leave(&settlement, None)
     }
 
-    fn leave(&mut self, ended: &Settlement<N>) -> bool {
+    fn leave(&mut self, ended: &Settlement<N>, q: Option<&SVector<Real, N>>) -> bool {
         self.law.rest();
-        self.book(ended, SVector::zeros(), SVector::zeros(), 0.0);
+        self.book(ended, q, SVector::zeros(), SVector::zeros(), 0.0);
         ended.is_outside()
     }
 

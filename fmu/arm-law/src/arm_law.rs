@@ -4,16 +4,16 @@
 
 use crate::displacement::Origin;
 use crate::joint_space::{JointGains, JointParameters, JointSpace, Nominal};
-use crate::kinematics::{Kinematics, Pose};
+use crate::kinematics::{Kinematics, Pose, sin_cos};
 use crate::limits::Limits;
 use crate::singularity::Singularity;
 use crate::space::InSpace;
 use crate::stiff_hand::{self, Detectors, StiffHandSeen};
 use crate::supervision::{self, Demand, Report, Status, Supervisor};
 use crate::task_space::TaskSpace;
-use crate::wrench::conditioner::Made;
+use crate::wrench::conditioner::{Made, Reading};
 use crate::wrench::frame::FixedFrame;
-use crate::wrench::{Conditioned, Conditioner, Frame, Sample, Sensor, Wrench};
+use crate::wrench::{Conditioned, Conditioner, Frame, Sensor, Wrench};
 use admittance::hand::StiffHand;
 use admittance::{Bounds, Gains, Ledger, ParameterError, Reach, Real, Request, Settings, real};
 use nalgebra::{Matrix3, Vector3};
@@ -256,11 +256,12 @@ impl ArmLaw {
         self.origin.map_or(*q, |origin| origin.q() + q)
     }
 
+    /// Brings `pose` to the joint angles `q` (rad).
     #[inline]
-    fn pose(&self, q: &Vector3<Real>) -> Pose {
+    fn turn(&self, pose: &mut Pose, q: &Vector3<Real>) {
         match &self.origin {
-            Some(origin) => origin.displaced(&self.kinematics, q),
-            None => self.kinematics.at(q),
+            Some(origin) => *pose = origin.displaced(&self.kinematics, q),
+            None => self.kinematics.turn(pose, &sin_cos(q)),
         }
     }
 
@@ -281,7 +282,7 @@ impl ArmLaw {
                 freedom: if hold { 0.0 } else { 1.0 },
             },
         };
-        outputs.pose = self.pose(&inputs.q);
+        self.turn(&mut outputs.pose, &inputs.q);
         let made = self.sensed(&inputs.q, inputs, outputs);
         self.run(&inputs.q, demand, outputs)?;
         self.conditioner.keep(&made);
@@ -295,7 +296,7 @@ impl ArmLaw {
         let signals = &inputs.signals;
         let is_known = inputs.q.iter().all(|q| q.is_finite());
         let q = if is_known { inputs.q } else { self.q };
-        outputs.pose = self.pose(&q);
+        self.turn(&mut outputs.pose, &q);
         let made = self.sensed(&q, inputs, outputs);
         let demand = self.decided(&supervision::Inputs {
             enable: signals.enable,
@@ -347,11 +348,15 @@ impl ArmLaw {
     /// No torque, the nominal where the arm was last known to be.
     #[cold]
     fn abandon(&mut self, outputs: &mut Outputs) {
-        let pose = self.pose(&self.q);
+        let Outputs {
+            pose,
+            outcome,
+            nominal,
+            ..
+        } = outputs;
+        self.turn(pose, &self.q);
         self.stiff_hand.rest();
-        self.law
-            .abandon(&pose, &self.q, &mut outputs.outcome, &mut outputs.nominal);
-        outputs.pose = pose;
+        self.law.abandon(pose, &self.q, outcome, nominal);
         outputs.slowed = false;
         outputs.stiff_hand = self.stiff_hand.known();
     }
@@ -422,19 +427,19 @@ impl ArmLaw {
     #[inline]
     fn sensed(&self, q: &Vector3<Real>, inputs: &Inputs, outputs: &mut Outputs) -> Made {
         let turn = self.frame.at(&outputs.pose);
-        let made = self.conditioner.sampled(&Sample {
-            wrench: inputs.hand,
-            R: turn.R(),
-            q: self.absolute(q),
+        let reading = Reading {
+            wrench: &inputs.hand,
             valid: inputs.ft_valid,
             tare: inputs.tare,
-        });
+        };
+        let (R, absolute) = (|| turn.R(), || self.absolute(q));
+        let (made, hand) = self.conditioner.sampled(&reading, R, absolute);
         outputs.ft = Conditioned {
             hand: Wrench {
-                force: turn.in_base(&made.hand.hand.force),
-                torque: turn.in_base(&made.hand.hand.torque),
+                force: turn.in_base(&hand.hand.force),
+                torque: turn.in_base(&hand.hand.torque),
             },
-            ..made.hand
+            ..hand
         };
         made
     }
