@@ -242,8 +242,12 @@ fn each<T: Copy + Default, const N: usize>(mut of: impl FnMut(usize) -> T) -> [T
 
 /// The sum of something over N axes, from 0.
 #[inline]
-fn sum<const N: usize>(of: impl FnMut(usize) -> Real) -> Real {
-    (0..N).map(of).sum()
+fn sum<const N: usize>(mut of: impl FnMut(usize) -> Real) -> Real {
+    let mut sum = -0.0; // as the sum of an iterator begins
+    for i in 0..N {
+        sum += of(i);
+    }
+    sum
 }
 
 /// The axis as messages name it: not at all if there is one only.

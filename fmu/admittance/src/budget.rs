@@ -111,7 +111,6 @@ const HALVINGS: u32 = Real::MANTISSA_DIGITS;
 ///
 /// The need is continuous and need(0) is what no force at all would cost. It is evaluated for the share that is returned,
 /// never extrapolated; the time is bounded.
-#[cold]
 pub fn share(need: impl Fn(Real) -> Real, tank: Real) -> Real {
     let (mut covered, mut not) = (0.0, 1.0);
     for _ in 0..HALVINGS {

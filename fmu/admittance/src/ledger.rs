@@ -14,7 +14,8 @@
 //! for every motion within the [`Reach`]:
 //! 1. [`settle`](Ledger::settle), at the sample's end: the springs are given up as far as must be, so that what did happen is
 //!    paid for. A motion beyond the reach may leave a debt, E < 0; there is no force until it is repaid.
-//! 2. [`share`](Ledger::share), at the next one's beginning: how much of a force the tank covers whatever the robot does.
+//! 2. [`covers`](Ledger::covers), at the next one's beginning: whether the tank covers a force whatever the robot does, and if
+//!    not, what [`share`](Ledger::share) of it.
 //! 3. [`book`](Ledger::book): both are taken over.
 //!
 //! Under the other laws the tank is observed only.
@@ -86,43 +87,50 @@ impl<const N: usize> Ledger<N> {
         }
     }
 
-    /// The share of the force `f` (N) that the tank covers, whatever the robot does within its reach after the sample that
-    /// ended with `settlement`. `taken(σ)` is the energy (J) that the law is sure to take in the sample that begins with the
-    /// share σ; `whole` is taken(1).
+    /// Whether the tank covers the force `f` (N), whatever the robot does within its reach after the sample that ended with
+    /// `settlement`. `taken` is the energy (J) that the law is sure to take in the sample that begins.
     ///
-    /// need(σ) = σ max f·Δq − taken(σ) ≤ E
+    /// need = max f·Δq − taken ≤ E
     ///
     /// With a delay the force works one sample later, and the one before it works now; both are looked at.
     #[inline]
+    pub fn covers(&self, settlement: &Settlement<N>, f: &SVector<Real, N>, taken: Real) -> bool {
+        if !self.terms.kept {
+            return true;
+        }
+        let [reserved, work] = self.most_work(settlement, f);
+        reserved + work - taken <= settlement.tank
+    }
+
+    /// The share of the force `f` (N) that the tank covers where it does not cover the whole: the largest σ in [0, 1) with
+    /// need(σ) ≤ E. `taken(σ)` is the energy (J) that the law is sure to take under it.
+    ///
+    /// need(σ) = σ max f·Δq − taken(σ)
+    #[cold]
     pub fn share(
         &self,
         settlement: &Settlement<N>,
         f: &SVector<Real, N>,
-        whole: Real,
         taken: impl Fn(Real) -> Real,
     ) -> Real {
-        let Terms {
-            kept,
-            delayed,
-            reach,
-            ..
-        } = &self.terms;
-        if !kept {
-            return 1.0;
-        }
+        let [reserved, work] = self.most_work(settlement, f);
+        budget::share(|s| reserved + s * work - taken(s), settlement.tank)
+    }
+
+    /// Most work (J) in the sample that begins after `settlement`: of a force that has been said before, and of the force `f`
+    /// (N).
+    #[inline]
+    fn most_work(&self, settlement: &Settlement<N>, f: &SVector<Real, N>) -> [Real; 2] {
         let Settlement { step, outside, .. } = settlement;
         let last = foretelling(step.as_ref(), *outside);
-        let reserved = self.reserved(step.as_ref(), *outside);
-        let work = if *delayed {
+        let reach = &self.terms.reach;
+        let work = if self.terms.delayed {
             // Not less than 0: what a force takes from the robot in the next sample cannot pay for this one.
             real::max(0.0, reach.most_work(f, last, 2))
         } else {
             reach.most_work(f, last, 1)
         };
-        if reserved + work - whole <= settlement.tank {
-            return 1.0;
-        }
-        budget::share(|s| reserved + s * work - taken(s), settlement.tank)
+        [self.reserved(step.as_ref(), *outside), work]
     }
 
     /// Most work (J) of a force that has been said a sample ago, in the sample that begins after the motion `step` (m).

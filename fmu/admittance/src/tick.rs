@@ -17,7 +17,7 @@ pub trait Coordinates<const N: usize> {
     /// The law once the place is known.
     type Sensed;
     /// What it asks for.
-    type Proposal;
+    type Proposal: Copy;
     /// How the nominals move in the sample that begins.
     type Driven;
 
@@ -220,12 +220,14 @@ impl<L: Coordinates<N>, const N: usize> Sampled<L, N> {
 
         // 4. Share. What the tank covers of that, however the robot moves within its reach.
         let mut driven = law.driven(&proposal, &f);
-        let whole = law.taken(&proposal, &driven, &f);
-        let share = self.ledger.share(&settlement, &tau, whole, |share| {
-            let f = f * share;
-            law.taken(&proposal, &law.driven(&proposal, &f), &f)
-        });
-        if share < 1.0 {
+        let mut share = 1.0;
+        let taken = law.taken(&proposal, &driven, &f);
+        if !self.ledger.covers(&settlement, &tau, taken) {
+            let (proposal, f_whole) = (proposal, f);
+            share = self.ledger.share(&settlement, &tau, |share| {
+                let f = f_whole * share;
+                law.taken(&proposal, &law.driven(&proposal, &f), &f)
+            });
             (f, tau) = (f * share, tau * share);
             driven = law.driven(&proposal, &f);
         }
