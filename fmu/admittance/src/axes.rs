@@ -3,7 +3,7 @@
 use crate::axis::{self, Axis};
 use crate::bounds::Bounds;
 use crate::motion::Sampling;
-use crate::settling::{Keep, Stored};
+use crate::settling::Keep;
 use crate::tick::{Coordinates, Tick};
 use crate::{Gains, ParameterError, Real, Settings, real};
 use nalgebra::SVector;
@@ -65,13 +65,10 @@ impl<const N: usize> Request<N> {
 }
 
 /// The axes at a tick, once the position is known.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Sensed<const N: usize>([axis::Sensed; N]);
+pub type Sensed<const N: usize> = [axis::Sensed; N];
 
 /// What the axes ask for at a tick. Nothing has happened until it is committed; it may be dropped.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[must_use]
-pub struct Proposal<const N: usize>([axis::Proposal; N]);
+pub type Proposal<const N: usize> = [axis::Proposal; N];
 
 impl<const N: usize> Axes<N> {
     /// Out of the loop, without bounds.
@@ -85,7 +82,7 @@ impl<const N: usize> Axes<N> {
             settings,
             sampling: Sampling::new(&settings),
             tuning_ticks: settings.tuning_ticks(),
-            axes: SVector::from(gains).map(Axis::new),
+            axes: SVector::from(gains).map(|gains| Axis::new(&settings, gains)),
             engaged: false,
         })
     }
@@ -111,7 +108,10 @@ impl<const N: usize> Axes<N> {
     pub fn tune(&mut self, gains: [Gains; N]) -> Result<(), ParameterError> {
         check(&gains)?;
         for (axis, gains) in self.axes.iter_mut().zip(gains) {
-            axis.tune(gains, self.tuning_ticks);
+            axis.tune(gains, self.tuning_ticks, &self.settings);
+            if !self.engaged {
+                axis.settle_gains(&self.settings);
+            }
         }
         Ok(())
     }
@@ -134,9 +134,30 @@ impl<const N: usize> Coordinates<N> for Axes<N> {
 
     #[inline]
     fn sense(&self, q: &SVector<Real, N>) -> Sensed<N> {
-        Sensed(each(|i| {
-            self.axes[i].sense(q[i], &self.settings, &self.sampling)
-        }))
+        if self.engaged {
+            each(|i| self.axes[i].sense(q[i], &self.settings, &self.sampling))
+        } else {
+            each(|i| self.axes[i].engage(q[i]))
+        }
+    }
+
+    #[inline]
+    fn stored(&self, sensed: &Sensed<N>) -> Real {
+        sum::<N>(|i| self.axes[i].stored(&sensed[i]))
+    }
+
+    fn springs(&self, sensed: &Sensed<N>) -> Real {
+        sum::<N>(|i| self.axes[i].spring(&sensed[i]))
+    }
+
+    fn masses(&self, sensed: &Sensed<N>) -> Real {
+        sum::<N>(|i| self.axes[i].mass(&sensed[i]))
+    }
+
+    fn reduce(&self, sensed: &mut Sensed<N>, keep: Keep) {
+        for axis in sensed {
+            axis.reduce(keep.e, keep.v_n);
+        }
     }
 
     #[inline]
@@ -146,88 +167,87 @@ impl<const N: usize> Coordinates<N> for Axes<N> {
         f_h: &SVector<Real, N>,
         request: &Request<N>,
     ) -> Proposal<N> {
-        Proposal(each(|i| {
-            self.axes[i].propose(&sensed.0[i], f_h[i], &request.of(i), &self.settings)
-        }))
+        let T = self.settings.T;
+        each(|i| self.axes[i].propose(&sensed[i], f_h[i], &request.of(i), T))
     }
 
     #[inline]
     fn f(&self, proposal: &Proposal<N>) -> SVector<Real, N> {
-        SVector::from_fn(|i, _| proposal.0[i].f())
+        SVector::from_fn(|i, _| self.axes[i].f(&proposal[i]))
     }
 
     #[inline]
     fn driven(&self, proposal: &Proposal<N>, f: &SVector<Real, N>) -> [axis::Driven; N] {
-        each(|i| proposal.0[i].driven(f[i], &self.settings))
+        if self.settings.law.row().feels_what_is_delivered() {
+            each(|i| self.axes[i].driven(&proposal[i], f[i]))
+        } else {
+            each(|i| proposal[i].wish())
+        }
     }
 
     #[inline]
-    fn taken(&self, proposal: &Proposal<N>, f: &SVector<Real, N>) -> Real {
-        proposal
-            .0
-            .iter()
-            .zip(f)
-            .map(|(axis, f)| axis.taken(*f, &self.settings))
-            .sum()
+    fn taken(
+        &self,
+        proposal: &Proposal<N>,
+        driven: &[axis::Driven; N],
+        f: &SVector<Real, N>,
+    ) -> Real {
+        sum::<N>(|i| self.axes[i].taken(&proposal[i], driven[i], f[i]))
     }
 
     #[inline]
     fn supplied(&self, proposal: &Proposal<N>, driven: &[axis::Driven; N]) -> Real {
-        let axes = proposal.0.iter().zip(driven);
-        axes.map(|(axis, driven)| axis.supplied(*driven, &self.settings))
-            .sum()
+        sum::<N>(|i| self.axes[i].supplied(&proposal[i], driven[i]))
     }
 
     #[inline]
     fn show(&self, proposal: &Proposal<N>, driven: &[axis::Driven; N], tick: &mut Tick<N>) {
-        let axes = &proposal.0;
-        tick.f_demand = SVector::from_fn(|i, _| axes[i].f_demand());
-        tick.q_n = SVector::from_fn(|i, _| axes[i].q_n());
-        tick.dq_n = SVector::from_fn(|i, _| axes[i].dq_n());
-        tick.e_nr = SVector::from_fn(|i, _| axes[i].e_nr());
-        tick.dq = SVector::from_fn(|i, _| axes[i].dq());
-        tick.held = driven.iter().any(|axis| axis.held);
+        tick.held = false;
+        for i in 0..N {
+            tick.f_demand[i] = proposal[i].f_demand();
+            tick.q_n[i] = proposal[i].q_n();
+            tick.dq_n[i] = proposal[i].dq_n();
+            tick.e_nr[i] = proposal[i].e_nr();
+            tick.dq[i] = proposal[i].dq();
+            tick.held |= driven[i].held;
+        }
     }
 
     #[inline]
     fn commit(&mut self, proposal: &Proposal<N>, driven: &[axis::Driven; N], f: &SVector<Real, N>) {
-        for (i, axis) in self.axes.iter_mut().enumerate() {
-            axis.commit(&proposal.0[i], driven[i], f[i], &self.settings);
+        let slips = self.settings.law.row().slips();
+        for i in 0..N {
+            self.axes[i].commit(&proposal[i], driven[i], f[i], slips, &self.settings);
         }
         self.engaged = true;
     }
 
     fn rest(&mut self) {
-        self.axes.iter_mut().for_each(Axis::rest);
-        self.engaged = false;
-    }
-}
-
-impl<const N: usize> Stored for Sensed<N> {
-    #[inline]
-    fn stored(&self, settings: &Settings) -> Real {
-        self.0.iter().map(|axis| axis.stored(settings)).sum()
-    }
-
-    fn spring(&self, settings: &Settings) -> Real {
-        self.0.iter().map(|axis| axis.spring(settings)).sum()
-    }
-
-    fn masses(&self, settings: &Settings) -> Real {
-        self.0.iter().map(|axis| axis.mass(settings)).sum()
-    }
-
-    fn reduce(&mut self, keep: Keep) {
-        for axis in &mut self.0 {
-            axis.reduce(keep.e, keep.v_n);
+        for axis in &mut self.axes {
+            axis.settle_gains(&self.settings);
         }
+        self.engaged = false;
     }
 }
 
 /// One of something for each axis, from 0.
 #[inline]
-fn each<T, const N: usize>(of: impl FnMut(usize) -> T) -> [T; N] {
-    core::array::from_fn(of)
+fn each<T: Copy + Default, const N: usize>(mut of: impl FnMut(usize) -> T) -> [T; N] {
+    let mut all = [T::default(); N];
+    for (i, one) in all.iter_mut().enumerate() {
+        *one = of(i);
+    }
+    all
+}
+
+/// The sum of something over N axes, from 0.
+#[inline]
+fn sum<const N: usize>(mut of: impl FnMut(usize) -> Real) -> Real {
+    let mut sum = -0.0; // as the sum of an iterator begins
+    for i in 0..N {
+        sum += of(i);
+    }
+    sum
 }
 
 /// The axis as messages name it: not at all if there is one only.

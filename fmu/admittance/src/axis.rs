@@ -1,12 +1,11 @@
 //! One axis: slip, midpoint, clamp, reset.
 
 use crate::bounds::Interval;
-use crate::law::{Felt, Spring};
-use crate::midpoint::{self, Midpoint, Sample, slower};
+use crate::midpoint::{self, Midpoint, Rule, Sample, slower};
 use crate::motion::Sampling;
 use crate::real::{floored, sat};
 use crate::retune::{self, Tuning};
-use crate::{Bounds, Gains, Motion, Real, Settings, storage};
+use crate::{Bounds, Gains, Real, Settings};
 
 /// One axis of the law between two ticks.
 ///
@@ -15,21 +14,35 @@ use crate::{Bounds, Gains, Motion, Real, Settings, storage};
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Axis {
     tuning: Tuning<Gains>,
+    /// that of the gains at this tick
+    rule: Rule,
     /// none where nothing is bounded
     bounds: Option<Bounds>,
-    /// the nominal's position, while the axis is in the loop
-    q_n: Option<Real>,
-    v_n: Real,
-    motion: Motion,
+    /// the last tick in the loop
+    last: Last,
 }
 
-/// One axis at a tick, once the position is known: what it stores, before it acts.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Sensed {
-    gains: Gains,
-    motion: Motion,
+/// What is remembered of a tick.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+struct Last {
     q: Real,
+    dq: Real,
+    /// where the nominal goes from there, m and m/s
+    q_n: Real,
+    v_n: Real,
+}
+
+/// One axis at a tick, once the position is known.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Sensed {
+    /// Position, m.
+    q: Real,
+    /// The robot's velocity, m/s.
+    dq: Real,
+    /// Position error, after the slip, m.
     e: Real,
+    /// The nominal's velocity, m/s.
     v_n: Real,
 }
 
@@ -45,20 +58,18 @@ pub struct Request {
 }
 
 /// What one axis asks for at a tick. Nothing has happened until it is committed.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Proposal {
-    gains: Gains,
-    motion: Motion,
-    interval: Interval,
     q: Real,
     sample: Sample,
+    interval: Interval,
     wish: Driven,
     /// K y before any limit, N
     f_demand: Real,
 }
 
 /// How the nominal moves in the sample that begins.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Driven {
     /// Its velocity at the middle of the sample, m/s.
     pub v_m: Real,
@@ -68,23 +79,25 @@ pub struct Driven {
 
 impl Axis {
     /// Out of the loop. The caller has checked the gains.
-    pub fn new(gains: Gains) -> Self {
+    pub fn new(settings: &Settings, gains: Gains) -> Self {
         Self {
             tuning: Tuning::new(gains),
+            rule: Rule::new(settings, &gains),
             bounds: None,
-            q_n: None,
-            v_n: 0.0,
-            motion: Motion::default(),
+            last: Last::default(),
         }
     }
 
-    /// On its way to other gains, which it has after `ticks` ticks; at once while it is out of the loop. The caller has
-    /// checked them.
-    pub fn tune(&mut self, wanted: Gains, ticks: u32) {
+    /// On its way to other gains, which it has after `ticks` ticks. The caller has checked them.
+    pub fn tune(&mut self, wanted: Gains, ticks: u32, settings: &Settings) {
         self.tuning.want(wanted, ticks);
-        if self.q_n.is_none() {
-            self.tuning.finish();
-        }
+        self.rule = Rule::new(settings, self.tuning.now());
+    }
+
+    /// At the gains last wanted, at once: the axis is out of the loop.
+    pub fn settle_gains(&mut self, settings: &Settings) {
+        self.tuning.finish();
+        self.rule = Rule::new(settings, self.tuning.now());
     }
 
     /// Within other bounds from the next tick on. The caller has checked them.
@@ -92,118 +105,150 @@ impl Axis {
         self.bounds = (bounds != Bounds::default()).then_some(bounds);
     }
 
-    /// Out of the loop: nothing is stored, nothing known of the motion. The next tick engages with q_n = q, v_n = 0 and the
-    /// gains last wanted.
-    pub fn rest(&mut self) {
-        self.tuning.finish();
-        (self.q_n, self.v_n, self.motion) = (None, 0.0, Motion::default());
+    /// The axis engages at the position `q` (m): q_n = q, v_n = 0, nothing is known of the motion.
+    pub fn engage(&self, q: Real) -> Sensed {
+        Sensed {
+            q,
+            dq: 0.0,
+            e: self.rule.spring.slipped(q - q),
+            v_n: 0.0,
+        }
     }
 
-    /// The axis at a tick with position `q` (m): gains on their way take over, the spring slips.
+    /// The axis in the loop at a tick with position `q` (m): gains on their way take over, the spring slips.
     #[inline]
     pub fn sense(&self, q: Real, settings: &Settings, sampling: &Sampling) -> Sensed {
-        let (mut e, mut v_n) = (self.q_n.unwrap_or(q) - q, self.v_n);
-        let mut gains = *self.tuning.now();
-        if let Some(next) = self.tuning.next() {
-            (e, v_n) = retune::taken_over(settings.law, &gains, &next, e, v_n);
-            gains = next;
+        let last = &self.last;
+        let (mut e, mut v_n) = (last.q_n - q, last.v_n);
+        if let Some(gains) = self.tuning.changed_from() {
+            (e, v_n) = retune::taken_over(settings.law, gains, self.tuning.now(), e, v_n);
         }
         Sensed {
-            motion: self.motion.sensed(q, sampling),
             q,
-            e: storage::slipped(settings.law, &gains, e),
+            dq: sampling.dq(last.q, last.dq, q),
+            e: self.rule.spring.slipped(e),
             v_n,
-            gains,
         }
+    }
+
+    /// Energy stored at this tick, J. Not finite for alpha = 0.
+    #[inline]
+    pub fn stored(&self, sensed: &Sensed) -> Real {
+        self.rule.stored(sensed.e, sensed.v_n)
+    }
+
+    /// The spring's part of it, J.
+    pub fn spring(&self, sensed: &Sensed) -> Real {
+        self.rule.spring.energy(sensed.e)
+    }
+
+    /// The nominal mass's part of it, J. Not finite for alpha = 0.
+    pub fn mass(&self, sensed: &Sensed) -> Real {
+        self.rule.mass.energy(sensed.v_n)
     }
 
     /// What the axis asks for with the human's force `f_h` (N): nominal and coupling are solved together, within the
-    /// `bounds` and the `request`.
+    /// bounds and the `request`.
     #[inline]
-    pub fn propose(
-        &self,
-        sensed: &Sensed,
-        f_h: Real,
-        request: &Request,
-        settings: &Settings,
-    ) -> Proposal {
-        let Sensed {
-            gains,
-            motion,
-            q,
-            e,
-            v_n,
-        } = *sensed;
-        let T = settings.T;
+    pub fn propose(&self, sensed: &Sensed, f_h: Real, request: &Request, T: Real) -> Proposal {
+        let rule = &self.rule;
+        let Sensed { q, dq, e, v_n } = *sensed;
         let sample = Sample {
             e,
             v_n,
-            dq: motion.dq(),
+            dq,
             f_h,
-            D_n: gains.D_n + request.damping,
+            damping: request.damping,
         };
         let interval = Interval::within(self.bounds.as_ref(), q + e, T, request.hold)
             .no_faster_than(request.speed);
-        let Midpoint { v_m: free, mut y } =
-            midpoint::coupled(&gains, settings.reaction(), T, &sample);
-        let v_m = interval.keep(free);
-        let held = v_m != free;
-        if held {
-            y = midpoint::coupling(&gains, T, &sample, v_m);
+        let Midpoint { v_m: free, mut y } = rule.coupled(&sample);
+        let wish = Driven::within(&interval, free);
+        if wish.held {
+            y = rule.coupling(&sample, wish.v_m);
         }
         Proposal {
-            f_demand: gains.K * y,
-            gains,
-            motion,
-            interval,
             q,
             sample,
-            wish: Driven { v_m, held },
+            interval,
+            wish,
+            f_demand: rule.gains.K * y,
         }
     }
 
-    /// The nominal moves on as `driven`, while the robot gets the force `f` (N), which the caller's limits left of what the
-    /// axis proposed.
+    /// What the axis asks for within ±f_max, N.
     #[inline]
-    pub fn commit(&mut self, proposal: &Proposal, driven: Driven, f: Real, settings: &Settings) {
-        let Proposal { gains, sample, .. } = proposal;
-        let T = settings.T;
+    pub fn f(&self, proposal: &Proposal) -> Real {
+        sat(proposal.f_demand, self.rule.gains.f_max)
+    }
+
+    /// How a nominal moves that feels the force `f` (N), which the robot gets.
+    #[inline]
+    pub fn driven(&self, proposal: &Proposal, f: Real) -> Driven {
+        if f == proposal.f_demand {
+            return proposal.wish;
+        }
+        let y_s = f / self.rule.gains.K;
+        Driven::within(&proposal.interval, self.rule.driven(&proposal.sample, y_s))
+    }
+
+    /// Energy (J) that the law is sure to take in the sample that begins: [`Rule::taken`].
+    #[inline]
+    pub fn taken(&self, proposal: &Proposal, driven: Driven, f: Real) -> Real {
+        self.rule.taken(&proposal.sample, f, driven.v_m)
+    }
+
+    /// Energy (K/alpha) f_h v_m T that the human's port brings in the sample that begins, J. Not finite for alpha = 0.
+    #[inline]
+    pub fn supplied(&self, proposal: &Proposal, driven: Driven) -> Real {
+        self.rule.supplied(&proposal.sample, driven.v_m)
+    }
+
+    /// The nominal moves on as `driven`, while the robot gets the force `f` (N), which the caller's limits left of what the
+    /// axis asked for. Where its spring `slips` it is set back.
+    #[inline]
+    pub fn commit(
+        &mut self,
+        proposal: &Proposal,
+        driven: Driven,
+        f: Real,
+        slips: bool,
+        settings: &Settings,
+    ) {
+        let (rule, sample) = (&self.rule, &proposal.sample);
         let Driven { v_m, held } = driven;
         let mut v_n = midpoint::end(sample, v_m);
         if held {
             v_n = slower(v_n, v_m);
         }
-        match settings.law.row().spring {
-            Spring::Slips if f != proposal.f_demand => {
-                v_n = slower(v_n, midpoint::at_the_bound(gains, T, sample, f / gains.K));
-            }
-            Spring::Slips | Spring::Limited | Spring::Free => {}
+        if slips && f != proposal.f_demand {
+            v_n = slower(v_n, rule.at_the_bound(sample, f / rule.gains.K));
         }
-        self.tuning.pass(gains);
-        self.q_n = Some(proposal.q_n() + T * v_m);
-        self.v_n = floored(v_n);
-        self.motion = proposal.motion;
+        self.last = Last {
+            q: proposal.q,
+            dq: sample.dq,
+            q_n: proposal.q_n() + settings.T * v_m,
+            v_n: floored(v_n),
+        };
+        if self.tuning.pass() {
+            self.rule = Rule::new(settings, self.tuning.now());
+        }
+    }
+}
+
+impl Driven {
+    /// With the velocity `free` (m/s) as far as it lies within `interval`.
+    #[inline]
+    fn within(interval: &Interval, free: Real) -> Self {
+        let v_m = interval.keep(free);
+        Self {
+            v_m,
+            held: v_m != free,
+        }
     }
 }
 
 impl Sensed {
-    /// Energy stored at this tick, J. Not finite for alpha = 0.
-    #[inline]
-    pub fn stored(&self, settings: &Settings) -> Real {
-        let Self { gains, e, v_n, .. } = self;
-        storage::stored(settings.law, gains, settings.alpha, *e, *v_n)
-    }
-
-    /// The spring's part of it, J.
-    pub fn spring(&self, settings: &Settings) -> Real {
-        storage::spring(settings.law, &self.gains, self.e)
-    }
-
-    /// The nominal mass's part of it, J. Not finite for alpha = 0.
-    pub fn mass(&self, settings: &Settings) -> Real {
-        storage::mass(&self.gains, settings.alpha, self.v_n)
-    }
-
     /// Gives up energy: the position error and the nominal's velocity are reduced to these fractions, in [0, 1].
     pub fn reduce(&mut self, e: Real, v_n: Real) {
         self.e *= e;
@@ -218,6 +263,7 @@ impl Proposal {
     }
 
     /// Nominal position at this tick, m.
+    #[inline]
     pub fn q_n(&self) -> Real {
         self.q + self.sample.e
     }
@@ -232,56 +278,13 @@ impl Proposal {
         self.sample.dq
     }
 
+    /// How the nominal moves if the whole of K y acts on it.
+    pub fn wish(&self) -> Driven {
+        self.wish
+    }
+
     /// K y before any limit, N.
     pub fn f_demand(&self) -> Real {
         self.f_demand
-    }
-
-    /// K y within ±f_max, N.
-    pub fn f(&self) -> Real {
-        sat(self.f_demand, self.gains.f_max)
-    }
-
-    /// How the nominal moves if the robot gets the force `f` (N).
-    #[inline]
-    pub fn driven(&self, f: Real, settings: &Settings) -> Driven {
-        match settings.law.row().felt {
-            Felt::Delivered if f != self.f_demand => {
-                let (alpha, T) = (settings.reaction(), settings.T);
-                let y_s = f / self.gains.K;
-                let free = midpoint::driven(&self.gains, alpha, T, &self.sample, y_s);
-                let v_m = self.interval.keep(free);
-                Driven {
-                    v_m,
-                    held: v_m != free,
-                }
-            }
-            Felt::Delivered | Felt::Coupling | Felt::Nothing => self.wish,
-        }
-    }
-
-    /// Energy (J) that the law is sure to take in the sample that begins, if the robot gets the force `f` (N) and the nominal
-    /// feels it: what the human brings less what the nominal keeps, its damping, and the spring, which can be given up
-    /// afterwards.
-    ///
-    /// −ΔH + (K/alpha) f_h v_m T ≥ K y v_m T + (K/alpha) D_n v_m² T + ½ K K_P e²
-    #[inline]
-    pub fn taken(&self, f: Real, settings: &Settings) -> Real {
-        let Driven { v_m, .. } = self.driven(f, settings);
-        f * v_m * settings.T
-            + self.gains.K / settings.alpha * self.sample.D_n * v_m * v_m * settings.T
-            + storage::spring(settings.law, &self.gains, self.sample.e)
-    }
-
-    /// Energy (K/alpha) f_h v_m T that the human's port brings in the sample that begins, J. Not finite for alpha = 0.
-    #[inline]
-    pub fn supplied(&self, driven: Driven, settings: &Settings) -> Real {
-        midpoint::supplied(
-            &self.gains,
-            settings.alpha,
-            settings.T,
-            &self.sample,
-            driven.v_m,
-        )
     }
 }

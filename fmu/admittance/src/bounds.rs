@@ -116,8 +116,8 @@ pub fn boxed<const N: usize>(
     Ok(bounds)
 }
 
-/// Velocities that the nominal may have over a sample, m/s. They contain 0.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// Velocities that the nominal may have over a sample, m/s. They contain 0; by default they are 0 alone.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Interval {
     low: Real,
     high: Real,

@@ -111,21 +111,11 @@ impl<const N: usize> SampleReach<N> {
 /// Halvings that find the share: to the last digit of the number's mantissa.
 const HALVINGS: u32 = Real::MANTISSA_DIGITS;
 
-/// The largest share σ in [0, 1] with `need(σ)` ≤ `tank` (J), or 0 if there is none.
+/// The largest share σ in [0, 1) with `need(σ)` ≤ `tank` (J), or 0 if there is none; the whole is not covered.
 ///
 /// The need is continuous and need(0) is what no force at all would cost. It is evaluated for the share that is returned,
 /// never extrapolated; the time is bounded.
-#[inline]
 pub fn share(need: impl Fn(Real) -> Real, tank: Real) -> Real {
-    if need(1.0) <= tank {
-        return 1.0;
-    }
-    halved(need, tank)
-}
-
-/// The same where the whole is not covered.
-#[cold]
-fn halved(need: impl Fn(Real) -> Real, tank: Real) -> Real {
     let (mut covered, mut not) = (0.0, 1.0);
     for _ in 0..HALVINGS {
         let between = 0.5 * (covered + not);

@@ -33,8 +33,8 @@ pub struct Row {
     pub text: &'static str,
     /// What its nominal feels.
     pub felt: Felt,
-    /// How its spring behaves where it alone would exceed the limit.
-    pub spring: Spring,
+    /// What gives way where its spring alone would exceed the limit.
+    pub spring: Yields,
     /// Whether the tank is kept ≥ 0. Under the other laws it is observed.
     pub keeps_tank: bool,
     /// Whether [`Admittance`](crate::Admittance) computes it, and an arm can have it. The others are comparators, on one
@@ -57,14 +57,14 @@ pub enum Felt {
     Delivered,
 }
 
-/// How the coupling's spring behaves where it alone would exceed f_max.
+/// What gives way where the coupling's spring alone would exceed f_max.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Spring {
-    /// It knows no limit: ½ k e² whatever its extension.
-    Free,
-    /// Its force stays at the limit while its extension grows: Φ(e).
-    Limited,
-    /// It slips, and q_n with it: |k e| ≤ f_max.
+pub enum Yields {
+    /// Nothing: ½ k e² whatever its extension.
+    Never,
+    /// Its force, which stays at the limit while the extension grows: Φ(e).
+    Force,
+    /// Its extension: it slips, and q_n with it, |k e| ≤ f_max.
     Slips,
 }
 
@@ -104,6 +104,24 @@ const fn offered() -> usize {
     n
 }
 
+impl Row {
+    /// Whether the nominal feels what the robot gets.
+    pub const fn feels_what_is_delivered(&self) -> bool {
+        match self.felt {
+            Felt::Delivered => true,
+            Felt::Nothing | Felt::Coupling => false,
+        }
+    }
+
+    /// Whether the spring slips, so that f_max bounds it.
+    pub const fn slips(&self) -> bool {
+        match self.spring {
+            Yields::Slips => true,
+            Yields::Never | Yields::Force => false,
+        }
+    }
+}
+
 impl Law {
     /// The law as an item of a choice.
     const fn item(self) -> Item {
@@ -138,7 +156,7 @@ impl Law {
                 name: "standard",
                 text: "admittance filter alone, no reaction on the nominal; sticks to walls",
                 felt: Felt::Nothing,
-                spring: Spring::Free,
+                spring: Yields::Never,
                 keeps_tank: false,
                 offered: true,
                 servo: true,
@@ -148,7 +166,7 @@ impl Law {
                 name: "passive",
                 text: "the paper's law: the nominal feels the unlimited coupling; creates energy once saturated",
                 felt: Felt::Coupling,
-                spring: Spring::Free,
+                spring: Yields::Never,
                 keeps_tank: false,
                 offered: true,
                 servo: false, // what a drive measures is what was delivered
@@ -158,7 +176,7 @@ impl Law {
                 name: "passive_applied",
                 text: "the nominal feels what the limits leave of the force; the spring winds up and sticks to walls",
                 felt: Felt::Delivered,
-                spring: Spring::Limited,
+                spring: Yields::Force,
                 keeps_tank: false,
                 offered: true,
                 servo: true,
@@ -168,7 +186,7 @@ impl Law {
                 name: "passive_bounded",
                 text: "the nominal feels the limited force and the spring slips at the limit; passive and bounded",
                 felt: Felt::Delivered,
-                spring: Spring::Slips,
+                spring: Yields::Slips,
                 keeps_tank: true,
                 offered: true,
                 servo: true,
@@ -178,7 +196,7 @@ impl Law {
                 name: "natural",
                 text: "natural admittance control (Dohring and Newman), to compare with: comparator.M in place of M_n; sticks to walls",
                 felt: Felt::Nothing,
-                spring: Spring::Free,
+                spring: Yields::Never,
                 keeps_tank: false,
                 offered: false,
                 servo: false,
@@ -188,7 +206,7 @@ impl Law {
                 name: "sliding_mode",
                 text: "sliding-mode position control under a standard proxy (Kikuuwe), to compare with; sticks to walls",
                 felt: Felt::Nothing,
-                spring: Spring::Slips, // the one between inner proxy and robot
+                spring: Yields::Slips, // the one between inner proxy and robot
                 keeps_tank: false,
                 offered: false,
                 servo: false,

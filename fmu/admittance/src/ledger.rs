@@ -14,7 +14,8 @@
 //! for every motion within the [`Reach`]:
 //! 1. [`settle`](Ledger::settle), at the sample's end: the springs are given up as far as must be, so that what did happen is
 //!    paid for. A motion beyond the reach may leave a debt, E < 0; there is no force until it is repaid.
-//! 2. [`share`](Ledger::share), at the next one's beginning: how much of a force the tank covers whatever the robot does.
+//! 2. [`covers`](Ledger::covers), at the next one's beginning: whether the tank covers a force whatever the robot does, and if
+//!    not, what [`share`](Ledger::share) of it.
 //! 3. [`book`](Ledger::book): both are taken over.
 //!
 //! Under the other laws the tank is observed only.
@@ -86,56 +87,75 @@ impl<const N: usize> Ledger<N> {
         }
     }
 
-    /// The force `f` (N) is about to be said: the share of it that the tank covers, whatever the robot does within its reach
-    /// after the sample that ended with `settlement`. `taken(σ)` is the energy (J) that the law is sure to take in the sample
-    /// that begins with the share σ.
+    /// Whether the tank covers the force `f` (N), whatever the robot does within its reach after the sample that ended with
+    /// `settlement`. `taken` is the energy (J) that the law is sure to take in the sample that begins.
     ///
-    /// need(σ) = σ max f·Δq − taken(σ) ≤ E
+    /// need = max f·Δq − taken ≤ E
     ///
     /// With a delay the force works one sample later, and the one before it works now; both are looked at.
     #[inline]
+    pub fn covers(&self, settlement: &Settlement<N>, f: &SVector<Real, N>, taken: Real) -> bool {
+        if !self.terms.kept {
+            return true;
+        }
+        let [reserved, work] = self.most_work(settlement, f);
+        reserved + work - taken <= settlement.tank
+    }
+
+    /// The share of the force `f` (N) that the tank covers where it does not cover the whole: the largest σ in [0, 1) with
+    /// need(σ) ≤ E. `taken(σ)` is the energy (J) that the law is sure to take under it.
+    ///
+    /// need(σ) = σ max f·Δq − taken(σ)
+    #[cold]
     pub fn share(
         &self,
         settlement: &Settlement<N>,
         f: &SVector<Real, N>,
         taken: impl Fn(Real) -> Real,
     ) -> Real {
-        let Terms {
-            kept,
-            delayed,
-            reach,
-            ..
-        } = &self.terms;
-        if !kept {
-            return 1.0;
-        }
-        let last = settlement.foretelling();
-        let reserved = self.reserved(settlement);
-        let work = if *delayed {
+        let [reserved, work] = self.most_work(settlement, f);
+        budget::share(|s| reserved + s * work - taken(s), settlement.tank)
+    }
+
+    /// Most work (J) in the sample that begins after `settlement`: of a force that has been said before, and of the force `f`
+    /// (N).
+    #[inline]
+    fn most_work(&self, settlement: &Settlement<N>, f: &SVector<Real, N>) -> [Real; 2] {
+        let Settlement { step, outside, .. } = settlement;
+        let last = foretelling(step.as_ref(), *outside);
+        let reach = &self.terms.reach;
+        let work = if self.terms.delayed {
             // Not less than 0: what a force takes from the robot in the next sample cannot pay for this one.
             real::max(0.0, reach.most_work(f, last, 2))
         } else {
             reach.most_work(f, last, 1)
         };
-        budget::share(|s| reserved + s * work - taken(s), settlement.tank)
+        [self.reserved(step.as_ref(), *outside), work]
     }
 
-    /// Most work (J), in the sample that begins after `settlement`, of a force that has been said a sample ago.
+    /// Most work (J) of a force that has been said a sample ago, in the sample that begins after the motion `step` (m).
     #[inline]
-    pub(crate) fn reserved(&self, settlement: &Settlement<N>) -> Real {
+    pub(crate) fn reserved(&self, step: Option<&SVector<Real, N>>, outside: bool) -> Real {
         if self.terms.delayed {
-            let last = settlement.foretelling();
+            let last = foretelling(step, outside);
             self.terms.reach.most_work(&self.commanded, last, 1)
         } else {
             0.0
         }
     }
 
-    /// Takes over the sample that ended, and opens the one that begins: with the force `f` (N) on the robot that this tick
-    /// says, and the energy (K/alpha) f_h v_m T (J) that the human's port brings.
+    /// Takes over the sample that ended at the position `q` (m), if it is known, and opens the one that begins: with the force
+    /// `f` (N) on the robot that this tick says, and the energy (K/alpha) f_h v_m T (J) that the human's port brings.
     #[inline]
-    pub fn book(&mut self, ended: &Settlement<N>, f: &SVector<Real, N>, supplied: Real) {
-        (self.q, self.step, self.outside) = (ended.q, ended.step, ended.outside);
+    pub fn book(
+        &mut self,
+        ended: &Settlement<N>,
+        q: Option<&SVector<Real, N>>,
+        f: &SVector<Real, N>,
+        supplied: Real,
+    ) {
+        self.q = q.copied();
+        (self.step, self.outside) = (ended.step, ended.outside);
         (self.H, self.G, self.tank) = (ended.H, ended.G, ended.tank);
         self.rounding = ended.rounding;
         if self.terms.defined {
@@ -153,23 +173,9 @@ impl<const N: usize> Ledger<N> {
         self.q = self.q.map(|q| q - by);
     }
 
-    /// The ledger as it stands, without the sample that ends now.
-    #[inline]
-    pub(crate) fn unsettled(&self) -> Settlement<N> {
-        Settlement {
-            q: self.q,
-            step: self.step,
-            outside: self.outside,
-            H: self.H,
-            G: self.G,
-            tank: self.tank,
-            rounding: self.rounding,
-        }
-    }
-
     /// The last motion (m), as far as it says anything on the next one.
     pub(crate) fn foretelling(&self) -> Option<&SVector<Real, N>> {
-        self.step.as_ref().filter(|_| !self.outside)
+        foretelling(self.step.as_ref(), self.outside)
     }
 
     /// Whether there is an energy to speak of: alpha > 0.
@@ -205,10 +211,11 @@ impl<const N: usize> Ledger<N> {
     }
 }
 
-impl<const N: usize> Settlement<N> {
-    /// The motion (m), as far as it says anything on the next one: not when it left the reach.
-    #[inline]
-    pub(crate) fn foretelling(&self) -> Option<&SVector<Real, N>> {
-        self.step.as_ref().filter(|_| !self.outside)
-    }
+/// The motion `step` (m), as far as it says anything on the next one: not when it left the reach.
+#[inline]
+fn foretelling<const N: usize>(
+    step: Option<&SVector<Real, N>>,
+    outside: bool,
+) -> Option<&SVector<Real, N>> {
+    step.filter(|_| !outside)
 }

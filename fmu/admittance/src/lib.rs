@@ -30,11 +30,11 @@
 //! | q_n, dq_n | M_n ddq_n + D_n dq_n = f_h − alpha y (eq:obs_dyn) | m, m/s | [`Axis`] |
 //! | e_nr | q_n − q | m | [`Tick::e_nr`] |
 //! | dq | (q_k − q_{k−1})/T, low pass optional | m/s | [`Motion`] |
-//! | y | de_nr + K_P e_nr | m/s | [`midpoint::coupled`] |
+//! | y | de_nr + K_P e_nr | m/s | [`Rule::coupled`](midpoint::Rule::coupled) |
 //! | tau_a, f_a | K y (eq:dob_input), limited | N | [`Tick::f`] |
 //! | alpha | the unit damper that the paper hides | N·s/m | [`Settings::alpha`] |
 //! | M_n, D_n, K, K_P, f_max | | kg, N·s/m, N·s/m, 1/s, N | [`Gains`] |
-//! | H | K(½ M_n v_n²/alpha + ½ K_P e²) | J | [`storage::stored`] |
+//! | H | K(½ M_n v_n²/alpha + ½ K_P e²) | J | [`Rule::stored`](midpoint::Rule::stored) |
 //! | G, E | ΔG = ΔH + f·Δq − (K/alpha) f_h v_m T, E ← min(E_0, E − ΔG) | J | [`Ledger`] |
 //!
 //! On a rotary axis read rad for m, N·m for N, kg·m² for kg. Forces act on the robot and are positive along the axis; q,

@@ -8,10 +8,36 @@
 //! y  = w + K_P (e + T w/2)                            eq:dob_input, tau = K y
 //! ```
 
-use crate::{Gains, Real};
+use crate::storage::{Mass, Spring};
+use crate::{Gains, Real, Settings};
+
+/// The rule for one axis, with what follows from its gains: computed when they change, not at every tick.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Rule {
+    /// The gains.
+    pub gains: Gains,
+    /// The coupling's spring.
+    pub spring: Spring,
+    /// The nominal mass as an energy.
+    pub mass: Mass,
+    T: Real,
+    /// the damper through which the nominal feels y, N·s/m
+    alpha: Real,
+    /// 2 M_n and 2 M_n/T
+    M_2: Real,
+    M_2T: Real,
+    /// K_P T
+    KPT: Real,
+    /// 1 + K_P T/2, and alpha times that
+    lead: Real,
+    c: Real,
+    /// K/alpha of the human's port
+    port: Real,
+}
 
 /// What one sample of the law starts from.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Sample {
     /// Position error q_n − q, m.
     pub e: Real,
@@ -21,8 +47,8 @@ pub struct Sample {
     pub dq: Real,
     /// Force of the human on the handle, N.
     pub f_h: Real,
-    /// Damping of the nominal in this sample, N·s/m: D_n of the gains and what comes on top.
-    pub D_n: Real,
+    /// Damping on top of D_n, N·s/m.
+    pub damping: Real,
 }
 
 /// What one sample of the law arrives at.
@@ -34,64 +60,114 @@ pub struct Midpoint {
     pub y: Real,
 }
 
-/// Nominal and coupling solved together: the nominal feels alpha·y. With alpha = 0 it feels nothing.
-///
-/// c = alpha(1 + K_P T/2)
-/// v_m = (2 M_n v_n/T + f_h + alpha(dq + K_P T dq/2 − K_P e)) / (2 M_n/T + D_n + c)
-/// y = (v_m − dq) + K_P(e + T(v_m − dq)/2)
-pub fn coupled(gains: &Gains, alpha: Real, T: Real, sample: &Sample) -> Midpoint {
-    let Gains { M_n, K_P, .. } = *gains;
-    let Sample {
-        e,
-        v_n,
-        dq,
-        f_h,
-        D_n,
-    } = *sample;
-    let c = alpha * (1.0 + K_P * T / 2.0);
-    let v_m = (2.0 * M_n * v_n / T + f_h + alpha * (dq + K_P * T * dq / 2.0 - K_P * e))
-        / (2.0 * M_n / T + D_n + c);
-    let y = coupling(gains, T, sample, v_m);
-    Midpoint { v_m, y }
-}
+impl Rule {
+    /// That of `gains` under `settings`.
+    pub fn new(settings: &Settings, gains: &Gains) -> Self {
+        let Settings { law, alpha, T, .. } = *settings;
+        let Gains { M_n, K, K_P, .. } = *gains;
+        let lead = 1.0 + K_P * T / 2.0;
+        Self {
+            gains: *gains,
+            spring: Spring::new(law, gains),
+            mass: Mass::new(gains, alpha),
+            T,
+            alpha: settings.reaction(),
+            M_2: 2.0 * M_n,
+            M_2T: 2.0 * M_n / T,
+            KPT: K_P * T,
+            lead,
+            c: settings.reaction() * lead,
+            port: K / alpha,
+        }
+    }
 
-/// The coupling's answer to a nominal that moves with `v_m` (m/s) over the sample: y at its middle (m/s).
-///
-/// y = w + K_P(e + T w/2), w = v_m − dq
-pub fn coupling(gains: &Gains, T: Real, sample: &Sample, v_m: Real) -> Real {
-    let w = v_m - sample.dq;
-    w + gains.K_P * (sample.e + T * w / 2.0)
-}
+    /// D_n and what comes on top of it in this sample, N·s/m.
+    #[inline]
+    fn D_n(&self, sample: &Sample) -> Real {
+        self.gains.D_n + sample.damping
+    }
 
-/// The nominal under a given reaction alpha·y_s, y_s being what the limits left of y (m/s). Returns v_m (m/s).
-///
-/// v_m = (2 M_n v_n/T + f_h − alpha y_s) / (2 M_n/T + D_n)
-pub fn driven(gains: &Gains, alpha: Real, T: Real, sample: &Sample, y_s: Real) -> Real {
-    let M_n = gains.M_n;
-    let Sample { v_n, f_h, D_n, .. } = *sample;
-    (2.0 * M_n * v_n / T + f_h - alpha * y_s) / (2.0 * M_n / T + D_n)
-}
+    /// Nominal and coupling solved together: the nominal feels alpha·y. With alpha = 0 it feels nothing.
+    ///
+    /// c = alpha(1 + K_P T/2)
+    /// v_m = (2 M_n v_n/T + f_h + alpha(dq + K_P T dq/2 − K_P e)) / (2 M_n/T + D_n + c)
+    /// y = (v_m − dq) + K_P(e + T(v_m − dq)/2)
+    #[inline]
+    pub fn coupled(&self, sample: &Sample) -> Midpoint {
+        let Self {
+            T, alpha, M_2, KPT, ..
+        } = *self;
+        let Sample {
+            e, v_n, dq, f_h, ..
+        } = *sample;
+        let v_m = (M_2 * v_n / T + f_h + alpha * (dq + KPT * dq / 2.0 - self.gains.K_P * e))
+            / (self.M_2T + self.D_n(sample) + self.c);
+        let y = self.coupling(sample, v_m);
+        Midpoint { v_m, y }
+    }
 
-/// The nominal velocity at which the coupling asks for exactly y_s (m/s): while it slips, the nominal need not run ahead
-/// of the robot any faster than that.
-///
-/// v_b = (y_s − K_P e)/(1 + K_P T/2) + dq
-pub fn at_the_bound(gains: &Gains, T: Real, sample: &Sample, y_s: Real) -> Real {
-    let Sample { e, dq, .. } = *sample;
-    (y_s - gains.K_P * e) / (1.0 + gains.K_P * T / 2.0) + dq
+    /// The coupling's answer to a nominal that moves with `v_m` (m/s) over the sample: y at its middle (m/s).
+    ///
+    /// y = w + K_P(e + T w/2), w = v_m − dq
+    #[inline]
+    pub fn coupling(&self, sample: &Sample, v_m: Real) -> Real {
+        let w = v_m - sample.dq;
+        w + self.gains.K_P * (sample.e + self.T * w / 2.0)
+    }
+
+    /// The nominal under a given reaction alpha·y_s, y_s being what the limits left of y (m/s). Returns v_m (m/s).
+    ///
+    /// v_m = (2 M_n v_n/T + f_h − alpha y_s) / (2 M_n/T + D_n)
+    #[inline]
+    pub fn driven(&self, sample: &Sample, y_s: Real) -> Real {
+        let Self { T, alpha, M_2, .. } = *self;
+        let Sample { v_n, f_h, .. } = *sample;
+        (M_2 * v_n / T + f_h - alpha * y_s) / (self.M_2T + self.D_n(sample))
+    }
+
+    /// The nominal velocity at which the coupling asks for exactly y_s (m/s): while it slips, the nominal need not run ahead
+    /// of the robot any faster than that.
+    ///
+    /// v_b = (y_s − K_P e)/(1 + K_P T/2) + dq
+    #[inline]
+    pub fn at_the_bound(&self, sample: &Sample, y_s: Real) -> Real {
+        let Sample { e, dq, .. } = *sample;
+        (y_s - self.gains.K_P * e) / self.lead + dq
+    }
+
+    /// Energy stored in nominal mass and spring, J. Not finite for alpha = 0.
+    #[inline]
+    pub fn stored(&self, e: Real, v_n: Real) -> Real {
+        self.mass.energy(v_n) + self.spring.energy(e)
+    }
+
+    /// Energy (K/alpha) f_h v_m T that the human's port brings in a sample, J. Not finite for alpha = 0.
+    #[inline]
+    pub fn supplied(&self, sample: &Sample, v_m: Real) -> Real {
+        self.port * sample.f_h * v_m * self.T
+    }
+
+    /// Energy (J) that the law is sure to take in a sample over which the robot gets the force `f` (N), while the nominal
+    /// feels it and moves with `v_m` (m/s): what the human brings less what the nominal keeps, its damping, and the spring,
+    /// which can be given up afterwards.
+    ///
+    /// −ΔH + (K/alpha) f_h v_m T ≥ K y v_m T + (K/alpha) D_n v_m² T + ½ K K_P e²
+    #[inline]
+    pub fn taken(&self, sample: &Sample, f: Real, v_m: Real) -> Real {
+        f * v_m * self.T
+            + self.port * self.D_n(sample) * v_m * v_m * self.T
+            + self.spring.energy(sample.e)
+    }
 }
 
 /// Nominal velocity at the end of a sample over which its mean is `v_m` (m/s): v_n⁺ = 2 v_m − v_n.
+#[inline]
 pub fn end(sample: &Sample, v_m: Real) -> Real {
     2.0 * v_m - sample.v_n
 }
 
 /// `other` in place of the velocity `v` where it holds no more energy.
+#[inline]
 pub fn slower(v: Real, other: Real) -> Real {
     if other * other <= v * v { other } else { v }
-}
-
-/// Energy (K/alpha) f_h v_m T that the human's port brings in a sample, J. Not finite for alpha = 0.
-pub fn supplied(gains: &Gains, alpha: Real, T: Real, sample: &Sample, v_m: Real) -> Real {
-    gains.K / alpha * sample.f_h * v_m * T
 }

@@ -33,25 +33,27 @@ impl Sampling {
             weight: (dq_cutoff > 0.0).then(|| -real::exp_m1(-TAU * dq_cutoff * T)),
         }
     }
+
+    /// The velocity at the position `q` (m), one sample after the position `last` with the velocity `dq` (m/s).
+    #[inline]
+    pub fn dq(&self, last: Real, dq: Real, q: Real) -> Real {
+        let difference = (q - last) / self.T;
+        match self.weight {
+            Some(weight) => floored(dq + weight * (difference - dq)),
+            None => difference,
+        }
+    }
 }
 
 impl Motion {
-    /// The motion after `q` (m) has been sensed at a tick.
-    #[must_use]
+    /// The velocity that the law uses when `q` (m) is sensed at a tick, m/s.
     #[inline]
-    pub fn sensed(&self, q: Real, sampling: &Sampling) -> Self {
-        let dq = self.q.map_or(0.0, |last| {
-            let difference = (q - last) / sampling.T;
-            match sampling.weight {
-                Some(weight) => floored(self.dq + weight * (difference - self.dq)),
-                None => difference,
-            }
-        });
-        Self { q: Some(q), dq }
+    pub fn dq(&self, q: Real, sampling: &Sampling) -> Real {
+        self.q.map_or(0.0, |last| sampling.dq(last, self.dq, q))
     }
 
-    /// The velocity that the law uses, m/s.
-    pub fn dq(&self) -> Real {
-        self.dq
+    /// The motion after a tick at `q` (m) with the velocity `dq` (m/s).
+    pub const fn at(q: Real, dq: Real) -> Self {
+        Self { q: Some(q), dq }
     }
 }

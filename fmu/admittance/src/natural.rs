@@ -33,7 +33,7 @@
 //! and q_d runs away as ½ f_h t²/M: it sticks, longer than `standard`.
 
 use crate::comparator::{self, Tick};
-use crate::midpoint::{self, Sample};
+use crate::midpoint::{self, Rule, Sample};
 use crate::motion::Sampling;
 use crate::parameters::check;
 use crate::real::{self, floored, sat};
@@ -44,9 +44,9 @@ use declaration::range::POSITIVE;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Natural {
+    settings: Settings,
     sampling: Sampling,
-    T: Real,
-    gains: Gains,
+    rule: Rule,
     M: Real,
     q_d: Option<Real>,
     v_d: Real,
@@ -65,8 +65,8 @@ impl Natural {
         check(None, &[("comparator.M", M, POSITIVE)])?;
         Ok(Self {
             sampling: Sampling::new(&settings),
-            T: settings.T,
-            gains,
+            rule: Rule::new(&settings, &gains),
+            settings,
             M,
             q_d: None,
             v_d: 0.0,
@@ -80,16 +80,16 @@ impl Natural {
     /// The first one out of its range; the gains stay as they were.
     pub fn tune(&mut self, gains: Gains) -> Result<(), ParameterError> {
         gains.check(None)?;
-        self.gains = gains;
+        self.rule = Rule::new(&self.settings, &gains);
         Ok(())
     }
 
     /// One tick at position `q` (m) with the human's force `f_h` (N); the first one engages with q_d = q, v_d = 0.
     pub fn step(&mut self, q: Real, f_h: Real) -> Tick {
-        let Gains { D_n, K, f_max, .. } = self.gains;
-        let T = self.T;
-        self.motion = self.motion.sensed(q, &self.sampling);
-        let dq = self.motion.dq();
+        let Gains { D_n, K, f_max, .. } = self.rule.gains;
+        let T = self.settings.T;
+        let dq = self.motion.dq(q, &self.sampling);
+        self.motion = Motion::at(q, dq);
         let (q_d, v_d) = (self.q_d.unwrap_or(q), self.v_d);
         let e = q_d - q;
 
@@ -99,11 +99,11 @@ impl Natural {
             v_n: v_d,
             dq,
             f_h,
-            D_n: 0.0, // the damper acts on the robot
+            damping: 0.0,
         };
-        // Not midpoint::driven, which rounds otherwise: nothing on the left damps, so that T is not divided by and taken back.
+        // Not Rule::driven, which rounds otherwise: nothing on the left damps, so that T is not divided by and taken back.
         let v_m = v_d + T * (f_h + f_v) / (2.0 * self.M);
-        let f_demand = f_v + K * midpoint::coupling(&self.gains, T, &sample, v_m);
+        let f_demand = f_v + K * self.rule.coupling(&sample, v_m);
 
         self.v_d = floored(midpoint::end(&sample, v_m));
         self.q_d = Some(q_d + T * v_m);

@@ -61,6 +61,7 @@ functions! {
 }
 
 /// sat(x): `x` within ±`bound`; NaN stays NaN.
+#[inline]
 pub fn sat(x: Real, bound: Real) -> Real {
     if x > bound {
         bound
@@ -71,8 +72,15 @@ pub fn sat(x: Real, bound: Real) -> Real {
     }
 }
 
+/// Whether all of `numbers` are finite: 0·x is 0 for these alone.
+#[inline]
+pub fn are_finite<'a>(numbers: impl IntoIterator<Item = &'a Real>) -> bool {
+    numbers.into_iter().fold(0.0, |sum, x| sum + 0.0 * x) == 0.0
+}
+
 /// Zero in place of a decaying state that would otherwise reach the denormal numbers, where arithmetic is slow. It only
 /// ever lowers the energy that the state holds.
+#[inline]
 pub fn floored(x: Real) -> Real {
     if abs(x) < SMALLEST { 0.0 } else { x }
 }

@@ -12,13 +12,16 @@
 //! | D_n, or f_max otherwise | all | neither stores; the next slip sees the new bound |
 
 use crate::real::{self, sat};
-use crate::storage::{extension, spring};
+use crate::storage::Spring;
 use crate::{Gains, Law, Real};
 
 /// Gains on their way to other ones.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Tuning<G> {
+    /// those of the last tick
+    last: G,
+    /// those of the next one
     now: G,
     wanted: G,
     /// ticks until the gains are those wanted
@@ -36,6 +39,7 @@ impl<G: Gradual> Tuning<G> {
     /// At their place.
     pub fn new(gains: G) -> Self {
         Self {
+            last: gains,
             now: gains,
             wanted: gains,
             remaining: 0,
@@ -48,31 +52,39 @@ impl<G: Gradual> Tuning<G> {
         if wanted != self.wanted {
             self.wanted = wanted;
             self.remaining = ticks.max(1);
+            self.now = self.last.toward(&wanted, self.remaining);
         }
     }
 
-    /// The gains at the last tick.
+    /// The gains at this tick.
+    #[inline]
     pub fn now(&self) -> &G {
         &self.now
     }
 
-    /// The gains at this tick, if they are others.
-    pub fn next(&self) -> Option<G> {
-        (self.remaining > 0).then(|| self.now.toward(&self.wanted, self.remaining))
+    /// The gains from which they take over at this tick, if they may be others.
+    #[inline]
+    pub fn changed_from(&self) -> Option<&G> {
+        (self.remaining > 0).then_some(&self.last)
     }
 
-    /// A tick has passed, at which the gains were the [next](Self::next) ones.
-    pub fn pass(&mut self, gains: &G) {
-        if self.remaining > 0 {
-            self.now = *gains;
-            self.remaining -= 1;
+    /// A tick has passed. Returns whether the gains of the next one may be others.
+    #[inline]
+    pub fn pass(&mut self) -> bool {
+        if self.remaining == 0 {
+            return false;
         }
+        self.remaining -= 1;
+        self.last = self.now;
+        if self.remaining > 0 {
+            self.now = self.last.toward(&self.wanted, self.remaining);
+        }
+        true
     }
 
     /// At their place at once: nothing is stored that could rise.
     pub fn finish(&mut self) {
-        self.now = self.wanted;
-        self.remaining = 0;
+        *self = Self::new(self.wanted);
     }
 }
 
@@ -84,6 +96,6 @@ pub fn taken_over(law: Law, from: &Gains, to: &Gains, e: Real, v_n: Real) -> (Re
     let spring_ratio = from.K * from.K_P / (to.K * to.K_P);
     let mass_ratio = from.K * from.M_n / (to.K * to.M_n);
     let e_kept = e * spring_ratio.min(1.0);
-    let e_most = extension(law, to, spring(law, from, e));
+    let e_most = Spring::new(law, to).extension(Spring::new(law, from).energy(e));
     (sat(e_kept, e_most), v_n * real::sqrt(mass_ratio.min(1.0)))
 }

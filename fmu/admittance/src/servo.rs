@@ -39,15 +39,14 @@
 //! slips as in the torque form, and at the limit |tau_m| ≥ f_max the reset applies (docs/specification.md section 1,
 //! step 3): v_n⁺ = v_b if v_b² ≤ v_n⁺², v_b = (y − K_P e)/(1 + K_P T/2) + dq.
 //!
-//! **Energy.** H as in [`storage`], ΔG = ΔH + tau_m Δq − (K/alpha) f_h v_m T, known at t_{k+1}. The drive's torque varies
+//! **Energy.** H as in [`storage`](crate::storage), ΔG = ΔH + tau_m Δq − (K/alpha) f_h v_m T, known at t_{k+1}. The drive's torque varies
 //! within the sample, so tau_m Δq is its work up to K a² T³/12 at an acceleration a; the true work is the smaller one.
 //! The torque is the drive's, so the law cannot withhold it: the tank is observed, not enforced.
 
-use crate::law::Spring;
-use crate::midpoint::{self, Sample, slower};
+use crate::midpoint::{self, Rule, Sample, slower};
 use crate::motion::Sampling;
 use crate::real::{self, floored};
-use crate::{Gains, Motion, ParameterError, Real, Settings, storage};
+use crate::{Gains, Motion, ParameterError, Real, Settings};
 use declaration::check::Expected;
 
 /// The law in servo form between two ticks, one axis.
@@ -56,7 +55,7 @@ use declaration::check::Expected;
 pub struct Servo {
     settings: Settings,
     sampling: Sampling,
-    gains: Gains,
+    rule: Rule,
     q_n: Option<Real>,
     v_n: Real,
     motion: Motion,
@@ -110,7 +109,7 @@ impl Servo {
         let mut servo = Self {
             settings,
             sampling: Sampling::new(&settings),
-            gains,
+            rule: Rule::new(&settings, &gains),
             q_n: None,
             v_n: 0.0,
             motion: Motion::default(),
@@ -131,7 +130,7 @@ impl Servo {
     /// A gain out of its range, or a gain of the drive other than it was; all gains stay as they were.
     pub fn tune(&mut self, gains: Gains) -> Result<(), ParameterError> {
         gains.check(None)?;
-        let now = self.gains;
+        let now = self.rule.gains;
         for (name, value, fixed) in [
             ("K", gains.K, now.K),
             ("K_P", gains.K_P, now.K_P),
@@ -149,22 +148,18 @@ impl Servo {
             }
         }
         self.v_n *= real::sqrt(real::min(now.M_n / gains.M_n, 1.0));
-        self.gains = gains;
+        self.rule = Rule::new(&self.settings, &gains);
         Ok(())
     }
 
     /// One tick at position `q` (m), human force `f_h` (N) and `tau_m` (N), the mean of the drive's torque over the sample
     /// that ended; the first tick engages with q_n = q, v_n = 0 and its nominal does not feel `tau_m`.
     pub fn step(&mut self, q: Real, f_h: Real, tau_m: Real) -> Tick {
-        let Self {
-            settings, gains, ..
-        } = *self;
+        let Self { settings, rule, .. } = *self;
         let T = settings.T;
-        self.motion = self.motion.sensed(q, &self.sampling);
-        let dq = self.motion.dq();
-        let e = self
-            .q_n
-            .map_or(0.0, |q_n| storage::slipped(settings.law, &gains, q_n - q));
+        let dq = self.motion.dq(q, &self.sampling);
+        self.motion = Motion::at(q, dq);
+        let e = self.q_n.map_or(0.0, |q_n| rule.spring.slipped(q_n - q));
         let (q_n, v_n) = (q + e, self.v_n);
         self.settle(q, e, tau_m);
 
@@ -174,20 +169,18 @@ impl Servo {
             v_n,
             dq,
             f_h,
-            D_n: gains.D_n,
+            damping: 0.0,
         };
-        let y = tau_m / gains.K;
-        let v_m = midpoint::driven(&gains, settings.reaction(), T, &sample, y);
-        let saturated = real::abs(tau_m) >= gains.f_max;
-        let v_next = midpoint::end(&sample, v_m);
-        self.v_n = floored(match settings.law.row().spring {
-            Spring::Slips if saturated => {
-                slower(v_next, midpoint::at_the_bound(&gains, T, &sample, y))
-            }
-            Spring::Slips | Spring::Limited | Spring::Free => v_next,
-        });
+        let y = tau_m / rule.gains.K;
+        let v_m = rule.driven(&sample, y);
+        let saturated = real::abs(tau_m) >= rule.gains.f_max;
+        let mut v_next = midpoint::end(&sample, v_m);
+        if saturated && settings.law.row().slips() {
+            v_next = slower(v_next, rule.at_the_bound(&sample, y));
+        }
+        self.v_n = floored(v_next);
         self.q_n = Some(q_n + T * v_m);
-        self.energy.supplied = midpoint::supplied(&gains, settings.alpha, T, &sample, v_m);
+        self.energy.supplied = rule.supplied(&sample, v_m);
         Tick {
             q_d: q_n + T * v_m / 2.0,
             dq_d: v_m,
@@ -226,10 +219,8 @@ impl Servo {
         if !self.is_energy_defined() {
             return;
         }
-        let Settings {
-            law, alpha, E_0, ..
-        } = self.settings;
-        let H = storage::stored(law, &self.gains, alpha, e, self.v_n);
+        let E_0 = self.settings.E_0;
+        let H = self.rule.stored(e, self.v_n);
         let last = self.energy;
         let delta_q = last.q.map_or(0.0, |last| q - last);
         let created = H - last.H + tau_m * delta_q - last.supplied;

@@ -1,15 +1,14 @@
 //! A sample that has ended: what it created, and what is given up for it.
 
 use crate::ledger::Ledger;
-use crate::{Real, Settings, real};
+use crate::tick::Coordinates;
+use crate::{Real, real};
 use nalgebra::SVector;
 
 /// The sample that ended, settled: what [`Ledger::book`] takes over. Nothing has happened until then.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[must_use]
 pub struct Settlement<const N: usize> {
-    /// Position at its end, m, if it is known.
-    pub(crate) q: Option<SVector<Real, N>>,
     /// Its motion, m, if it can foretell the next one.
     pub(crate) step: Option<SVector<Real, N>>,
     /// Whether that motion left the reach.
@@ -51,38 +50,26 @@ pub struct Keep {
     pub v_n: Real,
 }
 
-/// A law at a tick, once the position is known: what it stores and can give up.
-pub trait Stored {
-    /// Energy stored, J. Not finite for alpha = 0.
-    fn stored(&self, settings: &Settings) -> Real;
-    /// The springs' part of it, J.
-    fn spring(&self, settings: &Settings) -> Real;
-    /// The nominal masses' part of it, J; not as a difference, which would round like the whole.
-    fn masses(&self, settings: &Settings) -> Real;
-    /// Gives up all but these fractions of the position errors and of the nominal velocities.
-    fn reduce(&mut self, keep: Keep);
-}
-
 /// What rounding may take from the tank in a sample, relative to the terms of ΔG.
 const A_SAMPLE: Real = 64.0 * Real::EPSILON;
 
 impl<const N: usize> Ledger<N> {
-    /// Settles the sample that ends now at the position `q` (m). Where the tank is kept, `law` gives up as much of what it
-    /// stores as must be for the tank to stay ≥ 0.
+    /// Settles the sample that ends now at the position `q` (m). Where the tank is kept, the law as it was `sensed` gives up
+    /// as much of what it stores as must be for the tank to stay ≥ 0.
     #[inline]
-    pub fn settle<S: Stored>(
+    pub fn settle<L: Coordinates<N>>(
         &self,
-        law: &mut S,
-        settings: &Settings,
+        law: &L,
+        sensed: &mut L::Sensed,
         q: &SVector<Real, N>,
     ) -> Settlement<N> {
-        let H = law.stored(settings);
-        if !self.terms.kept || self.created(H, q) <= self.tank {
-            return self.close(H, q);
+        let mut H = law.stored(sensed);
+        if self.terms.kept && !(self.created(H, q) <= self.tank) {
+            let keep = self.affordable(law.springs(sensed), law.masses(sensed), q);
+            law.reduce(sensed, keep);
+            H = law.stored(sensed);
         }
-        let keep = self.affordable(law.spring(settings), law.masses(settings), q);
-        law.reduce(keep);
-        self.close(law.stored(settings), q)
+        self.close(H, q)
     }
 
     /// What may be kept at this tick, with the position `q` (m), of the energy that the law stores in its springs and in its
@@ -90,6 +77,7 @@ impl<const N: usize> Ledger<N> {
     ///
     /// It is found without the springs' energy, which can be many times what is left of it: a difference of the two would
     /// leave the larger one's rounding.
+    #[cold]
     fn affordable(&self, spring: Real, masses: Real, q: &SVector<Real, N>) -> Keep {
         let affordable = self.tank - self.created(0.0, q);
         let fraction = |energy: Real, affordable: Real| {
@@ -111,21 +99,14 @@ impl<const N: usize> Ledger<N> {
     /// given up.
     #[inline]
     pub fn close(&self, H: Real, q: &SVector<Real, N>) -> Settlement<N> {
-        let step = self.q.map(|last| q - last);
-        let seen = Settlement {
-            q: Some(*q),
-            step,
-            outside: step.is_some_and(|step| {
-                let reach = &self.terms.reach;
-                reach.is_left(&step, self.step.as_ref())
-            }),
-            ..self.unsettled()
-        };
+        let step = self.q.as_ref().map(|last| q - last);
+        let reach = &self.terms.reach;
+        let outside = step.is_some_and(|step| reach.is_left(&step, self.step.as_ref()));
         if !self.terms.defined {
-            return seen;
+            return self.unpaid(step, outside);
         }
         let created = self.created(H, q);
-        self.paid(seen, H, created, || self.size(H, q))
+        self.paid(step, outside, H, created, || self.size(H, q))
     }
 
     /// Settles the sample that ends now at a position that is not known, with nothing left stored: the tank pays for the most
@@ -136,35 +117,44 @@ impl<const N: usize> Ledger<N> {
             .terms
             .reach
             .most_work(&self.acting, self.foretelling(), 1);
-        let unseen = Settlement {
-            q: None,
-            step: None,
-            outside: false,
-            ..self.unsettled()
-        };
         let created = most - self.H - self.supplied;
         if !self.terms.defined || !(self.G + created).is_finite() {
-            return unseen;
+            return self.unpaid(None, false);
         }
-        self.paid(unseen, 0.0, created, || {
+        self.paid(None, false, 0.0, created, || {
             real::abs(self.tank) + real::abs(most) + self.H + real::abs(self.supplied)
         })
     }
 
-    /// The `sample` paid for by the tank: it `created` so much (J), and `H` (J) is stored now. `size` gives the terms of ΔG at
-    /// their sizes, J.
+    /// A sample with the motion `step` (m), that left the reach or not, for which nothing is paid.
+    fn unpaid(&self, step: Option<SVector<Real, N>>, outside: bool) -> Settlement<N> {
+        Settlement {
+            step,
+            outside,
+            H: self.H,
+            G: self.G,
+            tank: self.tank,
+            rounding: self.rounding,
+        }
+    }
+
+    /// The same paid for by the tank: the sample `created` so much (J), and `H` (J) is stored now. `size` gives the terms of
+    /// ΔG at their sizes, J.
     #[inline]
     fn paid(
         &self,
-        sample: Settlement<N>,
+        step: Option<SVector<Real, N>>,
+        outside: bool,
         H: Real,
         created: Real,
         size: impl FnOnce() -> Real,
     ) -> Settlement<N> {
         // With a delay, a force has been said that acts only now: what may cover it is not poured away.
-        let most = real::max(self.terms.E_0, self.reserved(&sample));
+        let most = real::max(self.terms.E_0, self.reserved(step.as_ref(), outside));
         let tank = real::min(self.tank - created, most);
         Settlement {
+            step,
+            outside,
             H,
             G: self.G + created,
             tank,
@@ -173,7 +163,6 @@ impl<const N: usize> Ledger<N> {
             } else {
                 0.0
             },
-            ..sample
         }
     }
 

@@ -33,7 +33,7 @@
 //! The 2014 controller shapes the surface s further, for a faster return; the proxy outside it is the same.
 
 use crate::comparator::{self, Tick};
-use crate::midpoint::{self, Sample};
+use crate::midpoint::{self, Rule, Sample};
 use crate::motion::Sampling;
 use crate::parameters::check;
 use crate::real::{floored, sat};
@@ -44,9 +44,9 @@ use declaration::range::NOT_NEGATIVE;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SlidingMode {
+    settings: Settings,
     sampling: Sampling,
-    T: Real,
-    gains: Gains,
+    rule: Rule,
     H: Real,
     q_n: Option<Real>,
     v_n: Real,
@@ -66,8 +66,8 @@ impl SlidingMode {
         check(None, &[("comparator.H", H, NOT_NEGATIVE)])?;
         Ok(Self {
             sampling: Sampling::new(&settings),
-            T: settings.T,
-            gains,
+            rule: Rule::new(&settings, &gains),
+            settings,
             H,
             q_n: None,
             v_n: 0.0,
@@ -82,16 +82,16 @@ impl SlidingMode {
     /// The first one out of its range; the gains stay as they were.
     pub fn tune(&mut self, gains: Gains) -> Result<(), ParameterError> {
         gains.check(None)?;
-        self.gains = gains;
+        self.rule = Rule::new(&self.settings, &gains);
         Ok(())
     }
 
     /// One tick at position `q` (m) with the human's force `f_h` (N); the first one engages with q_n = q, v_n = 0, b = 0.
     pub fn step(&mut self, q: Real, f_h: Real) -> Tick {
-        let Gains { K, K_P, f_max, .. } = self.gains;
-        let (T, H) = (self.T, self.H);
-        self.motion = self.motion.sensed(q, &self.sampling);
-        let dq = self.motion.dq();
+        let Gains { K, K_P, f_max, .. } = self.rule.gains;
+        let (T, H) = (self.settings.T, self.H);
+        let dq = self.motion.dq(q, &self.sampling);
+        self.motion = Motion::at(q, dq);
         let (q_n, v_n) = (self.q_n.unwrap_or(q), self.v_n);
 
         let sample = Sample {
@@ -99,9 +99,9 @@ impl SlidingMode {
             v_n,
             dq,
             f_h,
-            D_n: self.gains.D_n,
+            damping: 0.0,
         };
-        let v_m = midpoint::driven(&self.gains, 0.0, T, &sample, 0.0); // no reaction
+        let v_m = self.rule.driven(&sample, 0.0); // no reaction
         let de = v_m - dq;
         let e = q_n - q + T * de / 2.0;
         let b_slide = (T * (e + H * de) + H * self.b) / (T + H);

@@ -2,7 +2,7 @@
 
 use crate::ledger::Ledger;
 use crate::rate::Rate;
-use crate::settling::{Settlement, Stored};
+use crate::settling::{Keep, Settlement};
 use crate::{ParameterError, Reach, Real, Settings};
 use nalgebra::SVector;
 
@@ -14,10 +14,10 @@ pub trait Coordinates<const N: usize> {
     type Place;
     /// What is asked of the nominals beside the human's force.
     type Request;
-    /// The law once the place is known: what it stores.
-    type Sensed: Stored;
+    /// The law once the place is known.
+    type Sensed;
     /// What it asks for.
-    type Proposal;
+    type Proposal: Copy;
     /// How the nominals move in the sample that begins.
     type Driven;
 
@@ -27,6 +27,14 @@ pub trait Coordinates<const N: usize> {
     fn is_engaged(&self) -> bool;
     /// The law at `place`: gains on their way take over, the springs slip.
     fn sense(&self, place: &Self::Place) -> Self::Sensed;
+    /// Energy stored then, J. Not finite for alpha = 0.
+    fn stored(&self, sensed: &Self::Sensed) -> Real;
+    /// The springs' part of it, J.
+    fn springs(&self, sensed: &Self::Sensed) -> Real;
+    /// The nominal masses' part of it, J; not as a difference, which would round like the whole.
+    fn masses(&self, sensed: &Self::Sensed) -> Real;
+    /// Gives up all but these fractions of the position errors and of the nominal velocities.
+    fn reduce(&self, sensed: &mut Self::Sensed, keep: Keep);
     /// What it asks for under the human's forces `f_h` (N): nominal and coupling are solved together.
     fn propose(
         &self,
@@ -41,8 +49,9 @@ pub trait Coordinates<const N: usize> {
     /// [`Felt`]: crate::law::Felt
     fn driven(&self, proposal: &Self::Proposal, f: &SVector<Real, N>) -> Self::Driven;
     /// Energy (J) that the law is sure to take in the sample that begins, if the robot gets the forces `f` (N) and the
-    /// nominals feel them.
-    fn taken(&self, proposal: &Self::Proposal, f: &SVector<Real, N>) -> Real;
+    /// nominals are `driven` by them.
+    fn taken(&self, proposal: &Self::Proposal, driven: &Self::Driven, f: &SVector<Real, N>)
+    -> Real;
     /// Energy (K/alpha) f_h·v_m T that the human's port brings in the sample that begins, J. Not finite for alpha = 0.
     fn supplied(&self, proposal: &Self::Proposal, driven: &Self::Driven) -> Real;
     /// Writes f_demand, q_n, dq_n, e_nr, dq and held.
@@ -196,7 +205,7 @@ impl<L: Coordinates<N>, const N: usize> Sampled<L, N> {
 
         // 1. Settle. The sample that ends is known now: the tank pays for what it created.
         let mut sensed = law.sense(inputs.place);
-        let mut settlement = self.ledger.settle(&mut sensed, law.settings(), inputs.q);
+        let mut settlement = self.ledger.settle(law, &mut sensed, inputs.q);
         if !law.is_engaged() {
             settlement = settlement.without_motion();
         }
@@ -207,19 +216,23 @@ impl<L: Coordinates<N>, const N: usize> Sampled<L, N> {
 
         // 3. Deliver. What the actuators give of that, within their limits and their rate.
         let Delivered { f, tau, limited } = actuators.deliver(&asked);
-        let (f, tau) = self.on_the_way(f, tau);
+        let (mut f, mut tau) = self.on_the_way(f, tau);
 
         // 4. Share. What the tank covers of that, however the robot moves within its reach.
-        let taken = |share| law.taken(&proposal, &(f * share));
-        let share = self.ledger.share(&settlement, &tau, taken);
-        let (f, tau) = if share < 1.0 {
-            (f * share, tau * share)
-        } else {
-            (f, tau)
-        };
+        let mut driven = law.driven(&proposal, &f);
+        let mut share = 1.0;
+        let taken = law.taken(&proposal, &driven, &f);
+        if !self.ledger.covers(&settlement, &tau, taken) {
+            let (proposal, f_whole) = (proposal, f);
+            share = self.ledger.share(&settlement, &tau, |share| {
+                let f = f_whole * share;
+                law.taken(&proposal, &law.driven(&proposal, &f), &f)
+            });
+            (f, tau) = (f * share, tau * share);
+            driven = law.driven(&proposal, &f);
+        }
 
         // 5. Commit. The nominals move on, feeling what the law says, and the sample that begins is booked.
-        let driven = law.driven(&proposal, &f);
         let supplied = law.supplied(&proposal, &driven);
         let mut tick = Tick {
             f,
@@ -236,7 +249,7 @@ impl<L: Coordinates<N>, const N: usize> Sampled<L, N> {
             return Err(Refused);
         }
         self.law.commit(&proposal, &driven, &f);
-        self.book(&settlement, f, tau, supplied);
+        self.book(&settlement, Some(inputs.q), f, tau, supplied);
         Ok(())
     }
 
@@ -262,11 +275,12 @@ impl<L: Coordinates<N>, const N: usize> Sampled<L, N> {
     fn book(
         &mut self,
         ended: &Settlement<N>,
+        q: Option<&SVector<Real, N>>,
         f: SVector<Real, N>,
         tau: SVector<Real, N>,
         supplied: Real,
     ) {
-        self.ledger.book(ended, &tau, supplied);
+        self.ledger.book(ended, q, &tau, supplied);
         (self.f, self.tau) = (f, tau);
     }
 
@@ -284,19 +298,19 @@ impl<L: Coordinates<N>, const N: usize> Sampled<L, N> {
         if !accept(settlement.G()) {
             return Err(Refused);
         }
-        Ok(self.leave(&settlement))
+        Ok(self.leave(&settlement, Some(q)))
     }
 
     /// The same where the actuators' positions at this tick are not known, or no numbers: the tank pays for the most that the
     /// forces can have done since the last one.
     pub fn abandon(&mut self) -> bool {
         let settlement = self.ledger.close_unseen();
-        self.leave(&settlement)
+        self.leave(&settlement, None)
     }
 
-    fn leave(&mut self, ended: &Settlement<N>) -> bool {
+    fn leave(&mut self, ended: &Settlement<N>, q: Option<&SVector<Real, N>>) -> bool {
         self.law.rest();
-        self.book(ended, SVector::zeros(), SVector::zeros(), 0.0);
+        self.book(ended, q, SVector::zeros(), SVector::zeros(), 0.0);
         ended.is_outside()
     }
 

@@ -167,11 +167,11 @@ fn axes_with_a_ledger_of_the_callers_own_make_the_law() {
                 law.rest(&q);
                 axes.rest();
                 let ended = own.close(0.0, &q);
-                own.book(&ended, &Vector3::zeros(), 0.0);
+                own.book(&ended, Some(&q), &Vector3::zeros(), 0.0);
             } else {
                 let tick = law.step(&q, &f_h);
                 let mut sensed = axes.sense(&q);
-                let mut ended = own.settle(&mut sensed, &settings, &q);
+                let mut ended = own.settle(&axes, &mut sensed, &q);
                 if !axes.is_engaged() {
                     ended = ended.without_motion();
                 }
@@ -179,7 +179,7 @@ fn axes_with_a_ledger_of_the_callers_own_make_the_law() {
                 let f = axes.f(&proposal);
                 assert_eq!(f, tick.f);
                 let driven = axes.driven(&proposal, &f);
-                own.book(&ended, &f, axes.supplied(&proposal, &driven));
+                own.book(&ended, Some(&q), &f, axes.supplied(&proposal, &driven));
                 axes.commit(&proposal, &driven, &f);
             }
             assert_eq!(&own, law.ledger(), "tick {k}");

@@ -2,8 +2,8 @@
 #![allow(non_snake_case, reason = "the paper's symbols")]
 
 use admittance::hand::{Detector, StiffHand, Watch};
-use admittance::midpoint::{self, Sample};
-use admittance::{Gains, ParameterError};
+use admittance::midpoint::{Rule, Sample};
+use admittance::{Gains, Law, ParameterError, Settings};
 use proptest::prelude::*;
 use std::f64::consts::TAU;
 
@@ -256,6 +256,12 @@ fn held(watch: &Watch, duration: f64, kick: f64, k_h: impl Fn(f64) -> f64) -> Ve
         K_P: 20.0,
         f_max: f64::INFINITY,
     };
+    let settings = Settings {
+        law: Law::Passive,
+        T,
+        ..Settings::default()
+    };
+    let rule = Rule::new(&settings, &gains);
     let (mut q, mut v, mut last, mut q_n, mut v_n) = (0.0, 0.0, 0.0, 0.0, 0.0);
     let mut detector = Detector::default();
     let ticks = (duration / T) as u32;
@@ -265,21 +271,15 @@ fn held(watch: &Watch, duration: f64, kick: f64, k_h: impl Fn(f64) -> f64) -> Ve
             let pushed = if t < 0.3 { kick } else { 0.0 };
             let f_h = pushed - k_h(t) * q;
             detector = detector.sensed(q, f_h, watch);
-            let D_n = gains.D_n + detector.D();
             let dq = (q - last) / T;
-            let e = q_n - q;
-            let done = midpoint::coupled(
-                &gains,
-                1.0,
-                T,
-                &Sample {
-                    e,
-                    v_n,
-                    dq,
-                    f_h,
-                    D_n,
-                },
-            );
+            let sample = Sample {
+                e: q_n - q,
+                v_n,
+                dq,
+                f_h,
+                damping: detector.D(),
+            };
+            let done = rule.coupled(&sample);
             let shown = (t, q, detector.D());
             last = q;
             q_n += T * done.v_m;

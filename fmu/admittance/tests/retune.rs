@@ -2,8 +2,9 @@
 #![allow(non_snake_case, reason = "the paper's symbols")]
 
 mod robot;
+use admittance::midpoint::Rule;
 use admittance::retune::taken_over;
-use admittance::storage::{extension, spring, stored};
+use admittance::storage::Spring;
 use admittance::{Admittance, Gains, Law, Settings};
 use proptest::prelude::*;
 use robot::{tick, unlimited};
@@ -14,6 +15,15 @@ const LAWS: [Law; 4] = [
     Law::PassiveApplied,
     Law::PassiveBounded,
 ];
+
+/// Energy stored with alpha = 1, J.
+fn stored(law: Law, gains: &Gains, e: f64, v_n: f64) -> f64 {
+    let settings = Settings {
+        law,
+        ..Settings::default()
+    };
+    Rule::new(&settings, gains).stored(e, v_n)
+}
 
 fn gains() -> impl Strategy<Value = Gains> {
     (0.1..20.0, 0.0..20.0, 1.0..1000.0, 1.0..50.0, 1.0..400.0).prop_map(
@@ -33,7 +43,7 @@ proptest! {
         law in prop::sample::select(&LAWS[..]), from in gains(), to in gains(), e in -2.0..2.0_f64, v_n in -5.0..5.0_f64,
     ) {
         let (e_new, v_new) = taken_over(law, &from, &to, e, v_n);
-        let (before, after) = (stored(law, &from, 1.0, e, v_n), stored(law, &to, 1.0, e_new, v_new));
+        let (before, after) = (stored(law, &from, e, v_n), stored(law, &to, e_new, v_new));
         prop_assert!(after <= before * (1.0 + 1e-14)); // a square root, a product
         // Nor does a change turn anything round.
         prop_assert!(e_new * e >= 0.0 && v_new * v_n >= 0.0);
@@ -43,7 +53,8 @@ proptest! {
     fn the_extension_is_the_inverse_of_the_spring(
         law in prop::sample::select(&LAWS[..]), gains in gains(), e in -2.0..2.0_f64,
     ) {
-        let back = extension(law, &gains, spring(law, &gains, e));
+        let spring = Spring::new(law, &gains);
+        let back = spring.extension(spring.energy(e));
         prop_assert!((back - e.abs()).abs() <= 1e-14 * (e.abs() + gains.f_max / (gains.K * gains.K_P)));
     }
 }
@@ -78,10 +89,14 @@ fn the_storage_of_the_applied_law_is_the_integral_of_the_limited_force() {
         let integral: f64 = (0..n).map(|i| h * force(h * (f64::from(i) + 0.5))).sum();
         // One cell of the sum holds the kink: 300 h²/8 at most, beside the rounding of 1e5 terms.
         assert!(
-            (spring(Law::PassiveApplied, &gains, end) - integral).abs() < 300.0 * h * h + 1e-12
+            (Spring::new(Law::PassiveApplied, &gains).energy(end) - integral).abs()
+                < 300.0 * h * h + 1e-12
         );
     }
-    assert!(spring(Law::Passive, &gains, 0.3) > 3.0 * spring(Law::PassiveApplied, &gains, 0.3));
+    assert!(
+        Spring::new(Law::Passive, &gains).energy(0.3)
+            > 3.0 * Spring::new(Law::PassiveApplied, &gains).energy(0.3)
+    );
 }
 
 /// The same within the loop: tuned at every tick to other gains, nothing is created at a robot that stands still.

@@ -5,7 +5,7 @@
 use crate::choices::WRENCH;
 use crate::displacement::Origin;
 use crate::joint_space::{JointSpace, Nominal};
-use crate::kinematics::{Kinematics, Pose};
+use crate::kinematics::{Kinematics, Pose, sin_cos};
 use crate::parameters::{ArmParameters, Checked};
 use crate::signals::{ArmInputs, ArmOutputs};
 use crate::singularity::Singularity;
@@ -13,9 +13,9 @@ use crate::space::InSpace;
 use crate::stiff_hand::{self, Detectors, StiffHandSeen};
 use crate::supervision::{self, Demand, Report, Status, Supervisor};
 use crate::task_space::TaskSpace;
-use crate::wrench::conditioner::Made;
+use crate::wrench::conditioner::{Made, Reading};
 use crate::wrench::frame::FixedFrame;
-use crate::wrench::{Conditioned, Conditioner, Fault, Sample, TareFailure, Wrench};
+use crate::wrench::{Conditioned, Conditioner, Fault, TareFailure, Wrench};
 use admittance::origin::{self, Move};
 use admittance::{Bounds, Ledger, ParameterError, Real, Request, real};
 use nalgebra::{Matrix3, Vector3};
@@ -172,11 +172,12 @@ impl ArmLaw {
         self.origin.map_or(*q, |origin| origin.q() + q)
     }
 
+    /// Brings `pose` to the joint angles `q` (rad).
     #[inline]
-    fn pose(&self, q: &Vector3<Real>) -> Pose {
+    fn turn(&self, pose: &mut Pose, q: &Vector3<Real>) {
         match &self.origin {
-            Some(origin) => origin.displaced(&self.kinematics, q),
-            None => self.kinematics.at(q),
+            Some(origin) => *pose = origin.displaced(&self.kinematics, q),
+            None => self.kinematics.turn(pose, &sin_cos(q)),
         }
     }
 
@@ -198,7 +199,7 @@ impl ArmLaw {
                     freedom: if hold { 0.0 } else { 1.0 },
                 },
             };
-            ran.pose = self.pose(&q);
+            self.turn(&mut ran.pose, &q);
             let made = self.sensed(&q, inputs, &mut ran);
             self.run(&q, demand, &mut ran)?;
             self.conditioner.keep(&made);
@@ -247,7 +248,7 @@ impl ArmLaw {
         let is_known = q.iter().all(|q| q.is_finite());
         let is_seen = is_known && inputs.encoder_valid != 0;
         let q = if is_known { *q } else { self.q };
-        ran.pose = self.pose(&q);
+        self.turn(&mut ran.pose, &q);
         let made = self.sensed(&q, inputs, ran);
         let demand = self.decided(&supervision::Inputs {
             enable: inputs.enable != 0,
@@ -298,11 +299,15 @@ impl ArmLaw {
     /// No torque, the nominal where the arm was last known to be.
     #[cold]
     fn abandon(&mut self, ran: &mut Ran) {
-        let pose = self.pose(&self.q);
+        let Ran {
+            pose,
+            outcome,
+            nominal,
+            ..
+        } = ran;
+        self.turn(pose, &self.q);
         self.stiff_hand.rest();
-        self.law
-            .abandon(&pose, &self.q, &mut ran.outcome, &mut ran.nominal);
-        ran.pose = pose;
+        self.law.abandon(pose, &self.q, outcome, nominal);
         ran.slowed = false;
         ran.stiff_hand = self.stiff_hand.known();
     }
@@ -373,22 +378,22 @@ impl ArmLaw {
         } else {
             (inputs.f_h, [0.0; 3])
         };
-        let made = self.conditioner.sampled(&Sample {
-            wrench: Wrench {
+        let reading = Reading {
+            wrench: &Wrench {
                 force: force.into(),
                 torque: torque.into(),
             },
-            R: turn.R(),
-            q: self.absolute(q),
             valid: inputs.ft_valid != 0,
             tare: inputs.ft_tare != 0,
-        });
+        };
+        let (R, absolute) = (|| turn.R(), || self.absolute(q));
+        let (made, hand) = self.conditioner.sampled(&reading, R, absolute);
         ran.ft = Conditioned {
             hand: Wrench {
-                force: turn.in_base(&made.hand.hand.force),
-                torque: turn.in_base(&made.hand.hand.torque),
+                force: turn.in_base(&hand.hand.force),
+                torque: turn.in_base(&hand.hand.torque),
             },
-            ..made.hand
+            ..hand
         };
         made
     }

@@ -1,7 +1,7 @@
 //! A tick of the law as it shows at the handle and at the joints.
 
-use admittance::Real;
 use admittance::tick::Refused;
+use admittance::{Real, real};
 use nalgebra::Vector3;
 
 /// What happened at a tick; every value is the one at t_k, vectors at the handle in the base frame.
@@ -66,15 +66,20 @@ impl HandleTick {
     /// Whether all that follows from the tick is: a torque that is not a number must not reach the robot.
     #[inline]
     pub fn is_finite(&self) -> bool {
-        [
-            &self.f_a,
-            &self.tau,
-            &self.tau_demand,
-            &self.p_n,
-            &self.dp_n,
-        ]
-        .into_iter()
-        .flatten()
-        .all(|value| value.is_finite())
+        let Self {
+            f_a,
+            tau,
+            tau_demand,
+            p_n,
+            dp_n,
+            ..
+        } = self;
+        real::are_finite(
+            f_a.iter()
+                .chain(tau)
+                .chain(tau_demand)
+                .chain(p_n)
+                .chain(dp_n),
+        )
     }
 }

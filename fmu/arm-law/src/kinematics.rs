@@ -103,25 +103,38 @@ impl Kinematics {
     /// The handle at joint angles given by sine and cosine.
     #[inline]
     pub(crate) fn turned(&self, sin_cos: &SinCos) -> Pose {
+        let mut pose = Pose {
+            p: Vector3::zeros(),
+            J: Matrix3::zeros(),
+            sigma_min: 0.0,
+            R: Matrix3::zeros(),
+            sin_cos: *sin_cos,
+        };
+        self.turn(&mut pose, sin_cos);
+        pose
+    }
+
+    /// Brings `pose` to joint angles given by sine and cosine.
+    #[inline]
+    pub(crate) fn turn(&self, pose: &mut Pose, sin_cos: &SinCos) {
         let [(s_1, c_1), _, (s_3, c_3)] = *sin_cos;
         let (s_b, c_b) = beta(sin_cos);
         let InPlane { x, z, r_x, r_z } = self.in_plane(sin_cos);
         let det = self.L1 * (self.handle_x * s_3 + self.handle_z * c_3);
-        Pose {
-            p: self.p(sin_cos),
-            J: self.J(sin_cos),
-            sigma_min: real::min(
-                real::abs(self.A1 + x),
-                real::abs(det) / largest_singular_value([[-z, -r_z], [x, r_x]]),
-            ),
-            #[rustfmt::skip]
-            R: Matrix3::new(
-                c_1 * c_b, -s_1, -c_1 * s_b,
-                s_1 * c_b,  c_1, -s_1 * s_b,
-                s_b,        0.0,  c_b,
-            ),
-            sin_cos: *sin_cos,
-        }
+        pose.p = self.p(sin_cos);
+        pose.J = self.J(sin_cos);
+        pose.sigma_min = real::min(
+            real::abs(self.A1 + x),
+            real::abs(det) / largest_singular_value([[-z, -r_z], [x, r_x]]),
+        );
+        #[rustfmt::skip]
+        let R = Matrix3::new(
+            c_1 * c_b, -s_1, -c_1 * s_b,
+            s_1 * c_b,  c_1, -s_1 * s_b,
+            s_b,        0.0,  c_b,
+        );
+        pose.R = R;
+        pose.sin_cos = *sin_cos;
     }
 
     /// Position of the handle, m.

@@ -56,7 +56,7 @@ impl TorqueLimiting {
 /// Why some laws do not clip.
 const SCALE_ONLY: &str = const {
     &Text::new("1 (scale) under the laws ")
-        .and_names(&laws!(row if matches!(row.felt, Felt::Delivered)))
+        .and_names(&laws!(row if row.feels_what_is_delivered()))
         .and(": their nominal feels one share of the force")
 }
 .as_str();

@@ -12,7 +12,7 @@ use crate::wrench::Sensor;
 use admittance::advice::{Advice, advise};
 use admittance::bounds::{boxed, or_none};
 use admittance::hand::StiffHand;
-use admittance::law::{OFFERED_LAW, Spring};
+use admittance::law::OFFERED_LAW;
 use admittance::parameters::{in_range, tunable_in_range};
 use admittance::{Bounds, Gains, Law, ParameterError, Reach, Real, Settings};
 use declaration::{Rows, Start};
@@ -228,9 +228,10 @@ impl ArmParameters {
             D_n: self.D_n[i],
             K: self.K[i],
             K_P: self.K_P[i],
-            f_max: match law.row().spring {
-                Spring::Slips => self.f_max[i],
-                Spring::Free | Spring::Limited => Real::INFINITY,
+            f_max: if law.row().slips() {
+                self.f_max[i]
+            } else {
+                Real::INFINITY
             },
         })
     }

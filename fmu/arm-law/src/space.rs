@@ -5,7 +5,7 @@ use crate::joint_space::{JointGains, JointSpace, Nominal};
 use crate::kinematics::Pose;
 use crate::task_space::TaskSpace;
 use admittance::{Gains, Ledger, ParameterError, Real, Request};
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Vector3;
 
 /// The coordinates in which the nominal lives.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -69,7 +69,7 @@ impl InSpace {
     ) -> Result<(), NotFinite> {
         match self {
             Self::Task(law) => {
-                *nominal = no_joints(q);
+                nominal.rest_at(q); // it has no joints of its own
                 law.step(pose, q, f_h, request, shown)
             }
             Self::Joint(law) => law.step(pose, q, f_h, request, shown, nominal),
@@ -86,7 +86,7 @@ impl InSpace {
     ) -> Result<(), NotFinite> {
         match self {
             Self::Task(law) => {
-                *nominal = no_joints(q);
+                nominal.rest_at(q); // it has no joints of its own
                 law.rest(pose, q, shown)
             }
             Self::Joint(law) => law.rest(pose, q, shown, nominal),
@@ -103,7 +103,7 @@ impl InSpace {
     ) {
         match self {
             Self::Task(law) => {
-                *nominal = no_joints(q);
+                nominal.rest_at(q); // it has no joints of its own
                 law.abandon(pose, shown);
             }
             Self::Joint(law) => law.abandon(pose, q, shown, nominal),
@@ -129,10 +129,4 @@ impl InSpace {
             Self::Joint(law) => law.ledger(),
         }
     }
-}
-
-/// The joints of a nominal that lives at the handle: the robot's, at rest.
-#[inline]
-fn no_joints(q: &Vector3<Real>) -> Nominal {
-    Nominal::at(q, Matrix3::zeros())
 }

@@ -1,7 +1,6 @@
 //! The law in joint space, eq:obs_dyn and eq:dob_input: against the law of one axis, its own energy formula, and the continuous equations.
 #![allow(non_snake_case, reason = "the paper's symbols")]
 
-use admittance::settling::Stored;
 use admittance::tick::{Coordinates, Tick as Shown};
 use admittance::{Admittance, Gains, Law, Ledger, Reach, Real, Settings};
 use arm_law::ParameterError;
@@ -50,9 +49,8 @@ impl Run {
 
     /// One tick; the robot gets the share `s` of what is asked for.
     fn tick(&mut self, q: &Vector3<Real>, tau_h: &Vector3<Real>, s: Real) -> Tick {
-        let settings = *self.joints.settings();
         let sensed = self.joints.sense(&Angles::new(q));
-        let H = sensed.stored(&settings);
+        let H = self.joints.stored(&sensed);
         let proposal = self
             .joints
             .propose(&sensed, tau_h, &JointRequest::default());
@@ -61,8 +59,12 @@ impl Run {
         let mut law = Shown::at_rest(q);
         self.joints.show(&proposal, &driven, &mut law);
         let ended = self.ledger.close(H, q);
-        self.ledger
-            .book(&ended, &tau, self.joints.supplied(&proposal, &driven));
+        self.ledger.book(
+            &ended,
+            Some(q),
+            &tau,
+            self.joints.supplied(&proposal, &driven),
+        );
         self.joints.commit(&proposal, &driven, &tau);
         Tick { tau, law, H }
     }
@@ -233,9 +235,9 @@ proptest! {
         for _ in 0..50 {
             run.tick(&q, &tau_h, 1.0);
         }
-        let kept = run.joints.sense(&Angles::new(&q)).stored(&settings);
+        let kept = run.joints.stored(&run.joints.sense(&Angles::new(&q)));
         run.joints.tune(to).unwrap();
-        let taken_over = run.joints.sense(&Angles::new(&q)).stored(&settings);
+        let taken_over = run.joints.stored(&run.joints.sense(&Angles::new(&q)));
         prop_assert!(taken_over <= kept * (1.0 + 1e-14), "{kept} → {taken_over}"); // rounding
     }
 }

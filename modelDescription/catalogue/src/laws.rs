@@ -1,7 +1,7 @@
 //! The README's table of the laws, made from the table that computes with them.
 
 use admittance::Law;
-use admittance::law::{Felt, Spring};
+use admittance::law::{Felt, Yields};
 
 /// The table, as it stands in the README between its marks.
 pub fn table() -> String {
@@ -17,9 +17,9 @@ pub fn table() -> String {
             Felt::Delivered => "the force that the robot gets",
         };
         let spring = match row.spring {
-            Spring::Free => "free",
-            Spring::Limited => "limited",
-            Spring::Slips => "slips at the limit",
+            Yields::Never => "free",
+            Yields::Force => "limited",
+            Yields::Slips => "slips at the limit",
         };
         let tank = match (row.offered, row.keeps_tank) {
             (false, _) => "–",

@@ -10,11 +10,10 @@ use crate::kinematics::{Kinematics, SinCos, sin_cos};
 use crate::nominal::transport::transported;
 use crate::nominal::{NominalArm, RigidBody};
 use admittance::bounds::{Bounds, Interval};
-use admittance::law::{Felt, Spring};
 use admittance::motion::Sampling;
 use admittance::real::{floored, sat};
 use admittance::retune::Tuning;
-use admittance::settling::{Keep, Stored};
+use admittance::settling::Keep;
 use admittance::tick::{Coordinates, Tick};
 use admittance::{Motion, ParameterError, Real, Settings};
 use nalgebra::{Matrix3, Vector3};
@@ -56,10 +55,9 @@ pub struct Angles {
 /// The joints at a tick, once the position is known: what they store, before they act.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sensed {
-    gains: JointGains,
     q: Vector3<Real>,
     body: RigidBody,
-    motion: [Motion; 3],
+    dq: Vector3<Real>,
     e: Vector3<Real>,
     v_n: Vector3<Real>,
 }
@@ -90,7 +88,8 @@ impl Default for JointRequest {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[must_use]
 pub struct Proposal {
-    sensed: Sensed,
+    q: Vector3<Real>,
+    body: RigidBody,
     intervals: [Interval; 3],
     sample: Sample,
     wish: Solution,
@@ -195,45 +194,59 @@ impl Coordinates<3> for Joints {
     fn sense(&self, Angles { q, sin_cos }: &Angles) -> Sensed {
         let law = self.settings.law;
         let body = self.arm.turned(&self.kinematics, sin_cos);
-        let sensed = |motion: &[Motion; 3]| {
-            let joint = |i: usize| motion[i].sensed(q[i], &self.sampling);
-            [joint(0), joint(1), joint(2)]
-        };
-        let mut gains = *self.tuning.now();
         let Some(last) = &self.state else {
             return Sensed {
-                gains,
                 q: *q,
                 body,
-                motion: sensed(&[Motion::default(); 3]),
+                dq: Vector3::zeros(),
                 e: Vector3::zeros(),
                 v_n: Vector3::zeros(),
             };
         };
-        let mut v_n = transported(&last.body, &body, &(q - last.q), &last.v_n);
-        let mut e = stored::slipped(law, &gains, &(last.q_n - q));
-        if let Some(next) = self.tuning.next() {
-            (e, v_n) = stored::taken_over(law, &gains, &next, &e, &v_n);
-            gains = next;
-            e = stored::slipped(law, &gains, &e);
+        let gains = self.tuning.now();
+        let (mut e, mut v_n) = (
+            last.q_n - q,
+            transported(&last.body, &body, &(q - last.q), &last.v_n),
+        );
+        if let Some(before) = self.tuning.changed_from() {
+            e = stored::slipped(law, before, &e);
+            (e, v_n) = stored::taken_over(law, before, gains, &e, &v_n);
         }
+        let dq = |i: usize| last.motion[i].dq(q[i], &self.sampling);
         Sensed {
-            gains,
             q: *q,
             body,
-            motion: sensed(&last.motion),
-            e,
+            dq: Vector3::new(dq(0), dq(1), dq(2)),
+            e: stored::slipped(law, gains, &e),
             v_n,
         }
     }
 
+    /// H = k (½ v_nᵀ M_n v_n/alpha + ½ eᵀ K_P e)
+    fn stored(&self, sensed: &Sensed) -> Real {
+        self.masses(sensed) + self.springs(sensed)
+    }
+
+    fn springs(&self, sensed: &Sensed) -> Real {
+        stored::springs(self.settings.law, self.tuning.now(), &sensed.e)
+    }
+
+    fn masses(&self, sensed: &Sensed) -> Real {
+        self.tuning.now().K * (sensed.body.kinetic(&sensed.v_n) / self.settings.alpha)
+    }
+
+    fn reduce(&self, sensed: &mut Sensed, keep: Keep) {
+        sensed.e *= keep.e;
+        sensed.v_n *= keep.v_n;
+    }
+
     fn propose(&self, sensed: &Sensed, tau_h: &Vector3<Real>, request: &JointRequest) -> Proposal {
         let (alpha, T) = (self.settings.reaction(), self.settings.T);
+        let gains = self.tuning.now();
         let Sensed {
-            gains,
             q,
             body,
-            motion,
+            dq,
             e,
             v_n,
         } = sensed;
@@ -247,14 +260,15 @@ impl Coordinates<3> for Joints {
             D_n: Matrix3::from_diagonal(&gains.D_n) + request.damping,
             e: *e,
             v_n: *v_n,
-            dq: Vector3::from([0, 1, 2].map(|i| motion[i].dq())),
+            dq: *dq,
             tau_h: *tau_h,
         };
         let wish = midpoint::coupled(gains, alpha, T, &sample, &intervals);
         let y = midpoint::coupling(gains, T, &sample, &wish.v_m);
         Proposal {
             tau_demand: y * gains.K,
-            sensed: *sensed,
+            q: *q,
+            body: *body,
             intervals,
             sample,
             wish,
@@ -264,53 +278,47 @@ impl Coordinates<3> for Joints {
     /// K y of each joint within ±tau_max where the nominal feels what is delivered, else K y, which the caller's limits may
     /// cut as they like.
     fn f(&self, proposal: &Proposal) -> Vector3<Real> {
-        match self.settings.law.row().felt {
-            Felt::Delivered => {
-                let tau_max = &proposal.sensed.gains.tau_max;
-                proposal.tau_demand.zip_map(tau_max, sat)
-            }
-            Felt::Nothing | Felt::Coupling => proposal.tau_demand,
+        if self.settings.law.row().feels_what_is_delivered() {
+            let tau_max = &self.tuning.now().tau_max;
+            proposal.tau_demand.zip_map(tau_max, sat)
+        } else {
+            proposal.tau_demand
         }
     }
 
     fn driven(&self, proposal: &Proposal, tau: &Vector3<Real>) -> Solution {
         let Proposal {
-            sensed,
             intervals,
             sample,
             wish,
             tau_demand,
+            ..
         } = proposal;
-        match self.settings.law.row().felt {
-            Felt::Delivered if tau != tau_demand => {
-                let (alpha, T) = (self.settings.reaction(), self.settings.T);
-                midpoint::driven(alpha, T, sample, &(tau / sensed.gains.K), intervals)
-            }
-            Felt::Delivered | Felt::Coupling | Felt::Nothing => *wish,
+        if self.settings.law.row().feels_what_is_delivered() && tau != tau_demand {
+            let (alpha, T) = (self.settings.reaction(), self.settings.T);
+            midpoint::driven(alpha, T, sample, &(tau / self.tuning.now().K), intervals)
+        } else {
+            *wish
         }
     }
 
     /// −ΔH + (k/alpha) tau_h·v_m T ≥ tau·v_m T + (k/alpha) v_mᵀ D_n v_m T + ½ k eᵀ K_P e
-    fn taken(&self, proposal: &Proposal, tau: &Vector3<Real>) -> Real {
+    fn taken(&self, proposal: &Proposal, driven: &Solution, tau: &Vector3<Real>) -> Real {
         let Settings { law, alpha, T, .. } = self.settings;
-        let Proposal { sensed, sample, .. } = proposal;
-        let v_m = self.driven(proposal, tau).v_m;
+        let (gains, sample, v_m) = (self.tuning.now(), &proposal.sample, &driven.v_m);
         let damped = v_m.dot(&(sample.D_n * v_m));
-        tau.dot(&v_m) * T
-            + sensed.gains.K / alpha * damped * T
-            + stored::springs(law, &sensed.gains, &sample.e)
+        tau.dot(v_m) * T + gains.K / alpha * damped * T + stored::springs(law, gains, &sample.e)
     }
 
     fn supplied(&self, proposal: &Proposal, driven: &Solution) -> Real {
         let Settings { alpha, T, .. } = self.settings;
-        let Proposal { sensed, sample, .. } = proposal;
-        sensed.gains.K / alpha * sample.tau_h.dot(&driven.v_m) * T
+        self.tuning.now().K / alpha * proposal.sample.tau_h.dot(&driven.v_m) * T
     }
 
     fn show(&self, proposal: &Proposal, driven: &Solution, tick: &mut Tick<3>) {
         let Sample { e, v_n, dq, .. } = &proposal.sample;
         tick.f_demand = proposal.tau_demand;
-        tick.q_n = e + proposal.sensed.q;
+        tick.q_n = e + proposal.q;
         tick.dq_n = *v_n;
         tick.e_nr = *e;
         tick.dq = *dq;
@@ -319,37 +327,29 @@ impl Coordinates<3> for Joints {
 
     fn commit(&mut self, proposal: &Proposal, driven: &Solution, tau: &Vector3<Real>) {
         let Settings { law, T, .. } = self.settings;
+        let gains = self.tuning.now();
         let Proposal {
-            sensed:
-                Sensed {
-                    gains,
-                    q,
-                    body,
-                    motion,
-                    ..
-                },
+            q,
+            body,
             sample,
             tau_demand,
             ..
         } = proposal;
         let Solution { v_m, held } = driven;
         let mut v_n = slower(body, v_m * 2.0 - sample.v_n, v_m, held);
-        match law.row().spring {
-            Spring::Slips if tau != tau_demand => {
-                let v_b = midpoint::at_the_bound(gains, T, sample, &(tau / gains.K));
-                let limited = tau.zip_map(tau_demand, |tau, asked| tau != asked);
-                v_n = slower(body, v_n, &v_b, &limited);
-            }
-            Spring::Slips | Spring::Limited | Spring::Free => {}
+        if law.row().slips() && tau != tau_demand {
+            let v_b = midpoint::at_the_bound(gains, T, sample, &(tau / gains.K));
+            let limited = tau.zip_map(tau_demand, |tau, asked| tau != asked);
+            v_n = slower(body, v_n, &v_b, &limited);
         }
-        self.tuning.pass(gains);
         self.state = Some(State {
             q: *q,
             body: *body,
             q_n: sample.e + q + v_m * T,
             v_n: v_n.map(floored),
-            motion: *motion,
+            motion: [0, 1, 2].map(|i| Motion::at(q[i], sample.dq[i])),
         });
+        self.tuning.pass();
     }
 
     fn rest(&mut self) {
@@ -373,24 +373,4 @@ fn slower(
         }
     }
     v
-}
-
-impl Stored for Sensed {
-    /// H = k (½ v_nᵀ M_n v_n/alpha + ½ eᵀ K_P e)
-    fn stored(&self, settings: &Settings) -> Real {
-        self.masses(settings) + self.spring(settings)
-    }
-
-    fn masses(&self, settings: &Settings) -> Real {
-        self.gains.K * (self.body.kinetic(&self.v_n) / settings.alpha)
-    }
-
-    fn spring(&self, settings: &Settings) -> Real {
-        stored::springs(settings.law, &self.gains, &self.e)
-    }
-
-    fn reduce(&mut self, keep: Keep) {
-        self.e *= keep.e;
-        self.v_n *= keep.v_n;
-    }
 }

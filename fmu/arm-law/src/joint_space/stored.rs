@@ -4,18 +4,19 @@
 //! with k alone, so that [`admittance`]'s rules hold joint by joint, with M_n unchanged.
 
 use super::JointGains;
-use admittance::{Law, Real, retune, storage};
+use admittance::storage::Spring;
+use admittance::{Law, Real, retune};
 use nalgebra::Vector3;
 
 /// Energy of the springs at position errors `e` (rad), J: ½ k eᵀ K_P e, and Φ(e) under `passive_applied`.
 pub fn springs(law: Law, gains: &JointGains, e: &Vector3<Real>) -> Real {
-    let spring = |i: usize| storage::spring(law, &gains.of(i), e[i]);
+    let spring = |i: usize| Spring::new(law, &gains.of(i)).energy(e[i]);
     spring(0) + spring(1) + spring(2)
 }
 
 /// Position errors (rad) of springs that may have slipped: |k K_P e| ≤ tau_max on each joint.
 pub fn slipped(law: Law, gains: &JointGains, e: &Vector3<Real>) -> Vector3<Real> {
-    Vector3::from([0, 1, 2].map(|i| storage::slipped(law, &gains.of(i), e[i])))
+    Vector3::from([0, 1, 2].map(|i| Spring::new(law, &gains.of(i)).slipped(e[i])))
 }
 
 /// Position errors (rad) and nominal velocities (rad/s) with which the gains `to` take over from the gains `from`.

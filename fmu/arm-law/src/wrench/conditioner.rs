@@ -108,15 +108,21 @@ pub struct Conditioner {
     filter: LowPass,
 }
 
-/// A sample, with what is to be remembered of it.
+/// The sensor's part of a sample.
+pub(crate) struct Reading<'a> {
+    pub wrench: &'a Wrench,
+    pub valid: bool,
+    pub tare: bool,
+}
+
+/// What is to be remembered of a sample.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Made {
-    pub hand: Conditioned,
     seen: Seen,
     requested: bool,
     progress: Option<Progress>,
-    /// what the filter has passed; zero where the hand is not known
-    passed: Wrench,
+    /// what the filter has passed, if there is one; zero where the hand is not known
+    passed: Option<Wrench>,
 }
 
 impl Sensor {
@@ -157,47 +163,62 @@ impl Conditioner {
 
     /// One sample.
     pub fn step(&mut self, sample: &Sample) -> Conditioned {
-        let made = self.sampled(sample);
+        let reading = Reading {
+            wrench: &sample.wrench,
+            valid: sample.valid,
+            tare: sample.tare,
+        };
+        let (made, hand) = self.sampled(&reading, || sample.R, || sample.q);
         self.keep(&made);
-        made.hand
+        hand
     }
 
-    /// What is made of a sample. Nothing is remembered of it until it is [kept](Self::keep).
+    /// What is made of a `reading`, and what is to be remembered of it once it is [kept](Self::keep). The sensor's orientation
+    /// `R` and the joint angles `q` (rad) are asked for where they matter.
     #[inline]
-    pub(crate) fn sampled(&self, sample: &Sample) -> Made {
-        let seen = self.validity.sampled(&sample.wrench, sample.valid);
-        let fault = seen.fault;
-        let unladen = sample.wrench - self.sensor.tool.weight(&sample.R);
-        let progress = self.tare.sampled(sample.tare, &unladen, fault, &sample.q);
+    pub(crate) fn sampled(
+        &self,
+        reading: &Reading<'_>,
+        R: impl FnOnce() -> Matrix3<Real>,
+        q: impl FnOnce() -> Vector3<Real>,
+    ) -> (Made, Conditioned) {
+        let seen = self.validity.sampled(reading.wrench, reading.valid);
+        let fault = seen.fault();
+        let unladen = match &self.sensor.tool {
+            tool if tool.mass == 0.0 => *reading.wrench,
+            tool => *reading.wrench - tool.weight(&R()),
+        };
+        let progress = self.tare.sampled(reading.tare, &unladen, fault, q);
         let (tare, bias) = match &progress {
             Some(progress) => (progress.state, &progress.bias),
             None => (self.tare.state(), self.tare.bias()),
         };
         let is_known = fault.is_none() && tare != TareState::Running;
-        let (passed, hand) = if is_known {
-            let hand = (unladen - *bias).about(&self.sensor.handle.into());
-            let passed = self.filter.passed(&hand);
-            let force = deadband(&passed.force, self.sensor.deadband);
-            let torque = passed.torque;
-            (passed, Wrench { force, torque })
-        } else {
-            (Wrench::ZERO, Wrench::ZERO)
-        };
-        Made {
-            hand: Conditioned { hand, fault, tare },
+        let mut hand = Wrench::ZERO;
+        let mut passed = self.filter.at_rest();
+        if is_known {
+            hand = (unladen - *bias).about(&self.sensor.handle.into());
+            if passed.is_some() {
+                hand = self.filter.passed(&hand);
+                passed = Some(hand);
+            }
+            hand.force = deadband(&hand.force, self.sensor.deadband);
+        }
+        let made = Made {
             seen,
-            requested: sample.tare,
+            requested: reading.tare,
             progress,
             passed,
-        }
+        };
+        (made, Conditioned { hand, fault, tare })
     }
 
-    /// Goes on from what was made of a sample.
+    /// Goes on from what is to be remembered of a sample.
     #[inline]
     pub(crate) fn keep(&mut self, made: &Made) {
         self.validity.keep(&made.seen);
         self.tare.keep(made.requested, made.progress.as_ref());
-        self.filter.keep(&made.passed);
+        self.filter.keep(made.passed.as_ref());
     }
 
     /// What the sensor reads when nothing acts on it, as far as a tare has found it; sensor frame.

@@ -41,17 +41,21 @@ impl LowPass {
 
     /// One sample of the finite input `u`.
     pub fn step(&mut self, u: &Wrench) -> Wrench {
-        let passed = self.passed(u);
-        self.keep(&passed);
-        passed
-    }
-
-    /// What passes of the finite input `u`.
-    #[inline]
-    pub(super) fn passed(&self, u: &Wrench) -> Wrench {
-        if self.is_off() {
+        if self.at_rest().is_none() {
             return *u;
         }
+        self.state = self.passed(u);
+        self.state
+    }
+
+    /// What passes where nothing has come for long; none where it is off.
+    #[inline]
+    pub(super) fn at_rest(&self) -> Option<Wrench> {
+        (self.weight != 1.0).then_some(Wrench::ZERO)
+    }
+
+    /// What passes of the finite input `u`, where it is on.
+    pub(super) fn passed(&self, u: &Wrench) -> Wrench {
         let step = |x: Real, u: Real| real::floored(x + self.weight * (u - x));
         Wrench {
             force: self.state.force.zip_map(&u.force, step),
@@ -61,13 +65,9 @@ impl LowPass {
 
     /// Goes on from what has `passed`.
     #[inline]
-    pub(super) fn keep(&mut self, passed: &Wrench) {
-        if !self.is_off() {
+    pub(super) fn keep(&mut self, passed: Option<&Wrench>) {
+        if let Some(passed) = passed {
             self.state = *passed;
         }
-    }
-
-    fn is_off(&self) -> bool {
-        self.weight == 1.0
     }
 }

@@ -161,11 +161,11 @@ impl Tare {
         requested: bool,
         unladen: &Wrench,
         fault: Option<Fault>,
-        q: &Vector3<Real>,
+        q: impl FnOnce() -> Vector3<Real>,
     ) -> Option<Progress> {
         let is_running = self.state() == TareState::Running;
         let asked = requested && !self.requested;
-        (asked || is_running).then(|| self.taken(unladen, fault, q))
+        (asked || is_running).then(|| self.taken(unladen, fault, &q()))
     }
 
     /// Goes on from a sample at which a tare was `requested` or not, and what changed by it.

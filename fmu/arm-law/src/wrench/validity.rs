@@ -75,19 +75,29 @@ pub struct Checks {
 pub struct Validity {
     checks: Checks,
     T: Real,
-    seen: Seen,
+    /// what some checks remember
+    past: Past,
+    fault: Option<Fault>,
+    /// for how long the signal has been sound since the fault, s
+    sound: Real,
 }
 
-/// What is remembered of the samples so far.
+/// The samples so far, as the checks for steps and repetitions see them.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub(super) struct Seen {
+struct Past {
     /// The last reading, if it was finite.
     last: Option<Wrench>,
     repetitions: u32,
     zeros: u32,
-    pub fault: Option<Fault>,
-    /// For how long the signal has been sound since the fault, s.
+}
+
+/// What is seen with a sample.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Seen {
+    /// none where no check looks back
+    past: Option<Past>,
+    fault: Option<Fault>,
     sound: Real,
 }
 
@@ -118,13 +128,25 @@ impl Fault {
     }
 }
 
+impl Checks {
+    /// Whether one of them compares a sample with those before.
+    fn look_back(&self) -> bool {
+        self.rate_force > 0.0
+            || self.rate_torque > 0.0
+            || self.stuck_samples > 0
+            || self.dropout_samples > 0
+    }
+}
+
 impl Validity {
     /// `checks` at sample period `T` (s); no sample so far.
     pub fn new(checks: Checks, T: Real) -> Self {
         Self {
             checks,
             T,
-            seen: Seen::default(),
+            past: Past::default(),
+            fault: None,
+            sound: 0.0,
         }
     }
 
@@ -132,70 +154,80 @@ impl Validity {
     /// invalid.
     #[inline]
     pub(super) fn sampled(&self, raw: &Wrench, flag: bool) -> Seen {
-        let finite = raw.components().iter().all(|x| x.is_finite());
-        let before = &self.seen;
-        let mut seen = Seen {
-            last: finite.then_some(*raw), // no rate across a gap
-            repetitions: counted(before.repetitions, before.last == Some(*raw)),
-            zeros: counted(before.zeros, *raw == Wrench::ZERO),
-            fault: before.fault,
-            sound: before.sound,
+        let finite = real::are_finite(raw.force.iter().chain(&raw.torque));
+        let past = self.checks.look_back().then(|| self.past.with(raw, finite));
+        let found = if !finite {
+            Some(Fault::NotFinite)
+        } else if !flag {
+            Some(Fault::Dropout)
+        } else if reaches(raw, self.checks.range_force, self.checks.range_torque) {
+            Some(Fault::OverRange)
+        } else {
+            past.and_then(|now| self.found(raw, &now))
         };
-        match self.found(&seen, raw, flag) {
-            Some(found) => {
-                seen.fault = match (found, before.fault) {
-                    (Fault::Rate, Some(fault)) => Some(fault),
-                    _ => Some(found),
-                };
-                seen.sound = 0.0;
-            }
-            None if before.fault.is_some() => {
-                seen.sound += self.T;
-                // Half a sample: sums of T carry rounding.
-                if seen.sound > self.checks.recovery_time - 0.5 * self.T {
-                    seen.fault = None;
-                }
-            }
-            None => {}
-        }
-        seen
+        let (fault, sound) = match (found, self.fault) {
+            (None, None) => (None, self.sound),
+            (None, Some(fault)) => self.recovering(fault),
+            (Some(Fault::Rate), Some(fault)) => (Some(fault), 0.0),
+            (Some(found), _) => (Some(found), 0.0),
+        };
+        Seen { past, fault, sound }
     }
 
     /// Goes on from what was `seen` with a sample.
     #[inline]
     pub(super) fn keep(&mut self, seen: &Seen) {
-        self.seen = *seen;
+        if let Some(past) = &seen.past {
+            self.past = *past;
+        }
+        (self.fault, self.sound) = (seen.fault, seen.sound);
     }
 
-    /// What is wrong with the sample `raw`, with which so much was `seen`.
-    #[inline]
-    fn found(&self, seen: &Seen, raw: &Wrench, flag: bool) -> Option<Fault> {
+    /// After one more sound sample since `fault`.
+    fn recovering(&self, fault: Fault) -> (Option<Fault>, Real) {
+        let sound = self.sound + self.T;
+        // Half a sample: sums of T carry rounding.
+        let recovered = sound > self.checks.recovery_time - 0.5 * self.T;
+        ((!recovered).then_some(fault), sound)
+    }
+
+    /// What is wrong with the sample `raw`, compared with those before; with it they are `now`.
+    fn found(&self, raw: &Wrench, now: &Past) -> Option<Fault> {
         let Checks {
-            range_force,
-            range_torque,
             rate_force,
             rate_torque,
             stuck_samples,
             dropout_samples,
             ..
         } = self.checks;
-        let last = self.seen.last;
-        let change = last.map_or(Wrench::ZERO, |last| *raw - last);
-        if seen.last.is_none() {
-            Some(Fault::NotFinite)
-        } else if !flag {
+        let change = self.past.last.map_or(Wrench::ZERO, |last| *raw - last);
+        if reached(now.zeros, dropout_samples) {
             Some(Fault::Dropout)
-        } else if reaches(raw, range_force, range_torque) {
-            Some(Fault::OverRange)
-        } else if reached(seen.zeros, dropout_samples) {
-            Some(Fault::Dropout)
-        } else if reached(seen.repetitions, stuck_samples) {
+        } else if reached(now.repetitions, stuck_samples) {
             Some(Fault::Stuck)
         } else if reaches(&change, rate_force * self.T, rate_torque * self.T) {
             Some(Fault::Rate)
         } else {
             None
         }
+    }
+}
+
+impl Past {
+    /// With one more sample.
+    fn with(&self, raw: &Wrench, finite: bool) -> Self {
+        Self {
+            last: finite.then_some(*raw), // no rate across a gap
+            repetitions: counted(self.repetitions, self.last == Some(*raw)),
+            zeros: counted(self.zeros, *raw == Wrench::ZERO),
+        }
+    }
+}
+
+impl Seen {
+    /// The fault, if there is one.
+    pub fn fault(&self) -> Option<Fault> {
+        self.fault
     }
 }
 
