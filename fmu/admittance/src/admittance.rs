@@ -2,7 +2,7 @@
 
 use crate::axes::{Axes, Request};
 use crate::bounds::Bounds;
-use crate::tick::{Direct, Inputs, Sampled, Tick};
+use crate::tick::{Direct, Inputs, Refused, Sampled, Tick};
 use crate::{Gains, Ledger, ParameterError, Reach, Real, Settings};
 use nalgebra::SVector;
 
@@ -92,6 +92,27 @@ impl<const N: usize> Admittance<N> {
         f_h: &SVector<Real, N>,
         request: &Request<N>,
     ) -> Tick<N> {
+        let mut done = Tick::at_rest(q);
+        let accept = |tick: &Tick<N>, _| {
+            done = *tick;
+            true // also what is not finite, which the caller sees
+        };
+        self.tick_if(q, f_h, request, accept).ok();
+        done
+    }
+
+    /// The same, if `accept` says yes to the tick and the energy G (J).
+    ///
+    /// # Errors
+    /// It says no: nothing has happened.
+    #[inline]
+    pub fn tick_if(
+        &mut self,
+        q: &SVector<Real, N>,
+        f_h: &SVector<Real, N>,
+        request: &Request<N>,
+        accept: impl FnOnce(&Tick<N>, Real) -> bool,
+    ) -> Result<(), Refused> {
         let inputs = Inputs {
             place: q,
             q,
@@ -99,13 +120,22 @@ impl<const N: usize> Admittance<N> {
             authority: request.authority(),
             request,
         };
-        let mut done = Tick::at_rest(q);
-        let accept = |tick: &Tick<N>, _| {
-            done = *tick;
-            true // also what is not finite, which the caller sees
-        };
-        self.sampled.tick(&inputs, &Direct, accept).ok();
-        done
+        self.sampled.tick(&inputs, &Direct, accept)
+    }
+
+    /// One tick out of the loop as [`rest`](Self::rest), if `accept` says yes to the energy G (J).
+    ///
+    /// # Errors
+    /// It says no: nothing has happened.
+    pub fn rest_if(
+        &mut self,
+        q: &SVector<Real, N>,
+        accept: impl FnOnce(Real) -> bool,
+    ) -> Result<Tick<N>, Refused> {
+        Ok(Tick {
+            outside_bounds: self.sampled.rest(q, accept)?,
+            ..Tick::at_rest(q)
+        })
     }
 
     /// One tick out of the loop at positions `q` (m): no force, q_n = q, v_n = 0. The energy that was stored is given up;

@@ -9,6 +9,7 @@ pub use parameters::{AxisParameters, Checked};
 pub use signals::{AxisInputs, AxisOutputs};
 
 use crate::origin::{Move, Origin};
+use crate::tick::{Refused, Tick};
 use crate::{Admittance, Bounds, ParameterError, Real, Request};
 use nalgebra::Vector1;
 
@@ -67,15 +68,48 @@ impl OneAxis {
         inputs: &AxisInputs,
         outputs: &mut AxisOutputs,
     ) -> Result<(), NotFinite> {
-        let before = *self;
-        let shown = self.shown(inputs).inspect_err(|NotFinite| *self = before)?;
-        *outputs = shown;
+        let engage = inputs.engage != 0;
+        let q = self.counted(inputs.q, engage)?;
+        let place = self.counting.place().map(|q_0| q_0.x as Real);
+        let q_n = |tick: &Tick<1>| place.map_or(tick.q_n.x, |q_0| q_0 + tick.q_n.x);
+        let finite = |tick: &Tick<1>, G: Real| {
+            let numbers = [tick.f_demand.x, q_n(tick), tick.dq_n.x, G];
+            numbers.iter().all(|number| number.is_finite())
+        };
+        if engage {
+            let request = Request {
+                hold: inputs.hold != 0,
+                ..Request::default()
+            };
+            let accept = |tick: &Tick<1>, G| {
+                let accepted = finite(tick, G);
+                if accepted {
+                    show(tick, q_n(tick), outputs);
+                }
+                accepted
+            };
+            let tau_h = Vector1::new(inputs.tau_h);
+            self.law
+                .tick_if(&q, &tau_h, &request, accept)
+                .map_err(|Refused| NotFinite)?;
+        } else {
+            let at_rest = Tick::at_rest(&q);
+            let accept = |G| finite(&at_rest, G);
+            let tick = self.law.rest_if(&q, accept).map_err(|Refused| NotFinite)?;
+            show(&tick, q_n(&tick), outputs);
+        }
+        self.counting.ticked(engage);
+        let ledger = self.law.ledger();
+        outputs.H = ledger.H();
+        outputs.G = ledger.G();
+        outputs.tank = ledger.tank();
+        outputs.debt = ledger.is_in_debt().into();
         Ok(())
     }
 
-    fn shown(&mut self, inputs: &AxisInputs) -> Result<AxisOutputs, NotFinite> {
-        let engage = inputs.engage != 0;
-        let q = Vector1::new(inputs.q);
+    /// The position `q` (m) from where it is counted.
+    fn counted(&mut self, q: f64, engage: bool) -> Result<Vector1<Real>, NotFinite> {
+        let q = Vector1::new(q);
         if let Some(Move { q_0, by }) = self.counting.moves(&q, engage) {
             let relative = Bounds {
                 q_min: self.bounds.q_min - q_0.x,
@@ -87,41 +121,21 @@ impl OneAxis {
                 .count_from(&by, [relative])
                 .map_err(|_| NotFinite)?;
         }
-        let q = self.counting.counted(&q);
-        let tick = if engage {
-            let request = Request {
-                hold: inputs.hold != 0,
-                ..Request::default()
-            };
-            self.law.tick(&q, &Vector1::new(inputs.tau_h), &request)
-        } else {
-            self.law.rest(&q)
-        };
-        self.counting.ticked(tick.engaged);
-        let ledger = self.law.ledger();
-        let q_n = tick.q_n.x;
-        let outputs = AxisOutputs {
-            tau_a: tick.f.x,
-            tau_demand: tick.f_demand.x,
-            q_n: self.counting.place().map_or(q_n, |q_0| q_0.x as Real + q_n),
-            dq_n: tick.dq_n.x,
-            e_nr: tick.e_nr.x,
-            dq: tick.dq.x,
-            H: ledger.H(),
-            G: ledger.G(),
-            tank: ledger.tank(),
-            share: tick.share,
-            saturated: tick.saturated.into(),
-            held: tick.held.into(),
-            outside_bounds: tick.outside_bounds.into(),
-            engaged: tick.engaged.into(),
-            debt: ledger.is_in_debt().into(),
-        };
-        let numbers = [outputs.tau_demand, outputs.q_n, outputs.dq_n, outputs.G];
-        if numbers.iter().all(|number| number.is_finite()) {
-            Ok(outputs)
-        } else {
-            Err(NotFinite)
-        }
+        Ok(self.counting.counted(&q))
     }
+}
+
+/// What a tick shows, but for the energy.
+fn show(tick: &Tick<1>, q_n: Real, outputs: &mut AxisOutputs) {
+    outputs.tau_a = tick.f.x;
+    outputs.tau_demand = tick.f_demand.x;
+    outputs.q_n = q_n;
+    outputs.dq_n = tick.dq_n.x;
+    outputs.e_nr = tick.e_nr.x;
+    outputs.dq = tick.dq.x;
+    outputs.share = tick.share;
+    outputs.saturated = tick.saturated.into();
+    outputs.held = tick.held.into();
+    outputs.outside_bounds = tick.outside_bounds.into();
+    outputs.engaged = tick.engaged.into();
 }
