@@ -145,9 +145,9 @@ typedef struct exo_arm_tare {
 // it is.
 typedef struct exo_arm_force_sensor {
   // Where the force of the human is read.
-  int32_t source;
+  int32_t source; // 1 f_h, 2 wrench
   // Frame in which f_h is given.
-  int32_t frame;
+  int32_t frame; // 1 base, 2 sensor
   // Orientation of the sensor in link 3's frame under ft.source 2: roll, pitch, yaw, turns about link 3's fixed axes
   // x, then y, then z.
   exo_real mount[3]; // rad
@@ -180,7 +180,7 @@ typedef struct exo_arm_singularity {
 // on the arm's x axis with the paper's gains.
 typedef struct exo_arm_stiff_hand {
   // Whether a hand too stiff for the gains is looked for and answered with damping.
-  int32_t active;
+  int32_t active; // 0 or 1
   // Damping on top of D_n while a stiff hand is detected.
   exo_real D_max; // N.s/m
   // Lower edge of the band in which a stiff hand is looked for, above the motions that the operator means.
@@ -236,7 +236,7 @@ typedef struct exo_arm_joint {
   // Largest speed of the nominal's joints in joint space; 0 = no limit.
   exo_real dq_n_max[3]; // rad/s
   // Whether the nominal keeps within joint.q_n_min and joint.q_n_max in joint space.
-  int32_t q_n_box;
+  int32_t q_n_box; // 0 or 1
   // Least angles of the nominal's joints.
   exo_real q_n_min[3]; // rad
   // Largest angles of the nominal's joints.
@@ -275,7 +275,7 @@ typedef struct exo_arm_nominal {
 // from C: what cannot be used is refused by name.
 typedef struct exo_arm_parameters {
   // Admittance law.
-  int32_t law;
+  int32_t law; // 1 standard, 2 passive, 3 passive_applied, 4 passive_bounded
   // Nominal mass along x, y, z (eq:nom_dyn in task space).
   exo_real Lambda_n[3]; // kg
   // Nominal damping along x, y, z (eq:nom_dyn in task space).
@@ -292,7 +292,7 @@ typedef struct exo_arm_parameters {
   // Largest absolute value of tau_a.
   exo_real tau_max[3]; // N.m
   // How joint torques beyond tau_max are brought within; clip under the laws standard and passive only.
-  int32_t torque_limiting;
+  int32_t torque_limiting; // 1 scale, 2 clip
   // Sample period.
   exo_real T; // s
   // Samples by which the importer's wiring delays tau_a, its first value being 0; it changes no torque, only in
@@ -313,7 +313,7 @@ typedef struct exo_arm_parameters {
   // Largest speed of the nominal along x, y, z; 0 = no limit.
   exo_real dp_n_max[3]; // m/s
   // Whether the nominal keeps within p_n_min and p_n_max.
-  int32_t p_n_box;
+  int32_t p_n_box; // 0 or 1
   // Least position of the nominal handle along x, y, z; base frame.
   exo_real p_n_min[3]; // m
   // Largest position of the nominal handle along x, y, z; base frame.
@@ -329,11 +329,11 @@ typedef struct exo_arm_parameters {
   // Damping for a hand too stiff for the gains.
   struct exo_arm_stiff_hand stiff_hand;
   // Whether supervision decides when the law may act; if not, engage alone does.
-  int32_t supervision;
+  int32_t supervision; // 0 or 1
   // Its times and thresholds.
   struct exo_arm_supervision supervisor;
   // Coordinates in which the nominal lives.
-  int32_t space;
+  int32_t space; // 1 task, 2 joint
   // The form in joint space.
   struct exo_arm_joint joint;
   // Its nominal arm.
@@ -349,9 +349,9 @@ typedef struct exo_arm_inputs {
   exo_real f_h[3]; // N
   // Whether the controller is in the loop. It engages at the first tick at which this is true, with p_n = p and dp_n
   // = 0; while it is false tau_a is 0.
-  int32_t engage;
+  int32_t engage; // 0 or 1
   // Whether the nominal stays where it is: the coupling then carries any load within f_max without drift.
-  int32_t hold;
+  int32_t hold; // 0 or 1
   // Raw force that acts on the sensor's tool, in the sensor's frame, under ft.source 2. It may be NaN, which
   // ft.fault names.
   exo_real ft_force[3]; // N
@@ -359,20 +359,20 @@ typedef struct exo_arm_inputs {
   // It may be NaN, which ft.fault names.
   exo_real ft_torque[3]; // N.m
   // Request for a tare: its change to true starts one, with nobody touching the handle and the arm at rest.
-  int32_t ft_tare;
+  int32_t ft_tare; // 0 or 1
   // Whether the controller may run at all; only with supervision.
-  int32_t enable;
+  int32_t enable; // 0 or 1
   // Its rising edge acknowledges a fault whose cause is gone; only with supervision.
-  int32_t acknowledge;
+  int32_t acknowledge; // 0 or 1
   // Whether the emergency stop is pressed: no torque, at once; only with supervision.
-  int32_t emergency_stop;
+  int32_t emergency_stop; // 0 or 1
   // A counter that must change within heartbeat_timeout, by whatever step; only with supervision.
   int32_t heartbeat;
   // The sensor's own word on the force; if false the law sees no force (ft.fault) and, with supervision, stops
   // softly.
-  int32_t ft_valid;
+  int32_t ft_valid; // 0 or 1
   // Whether q can be trusted; if not there is no torque, at once; only with supervision.
-  int32_t encoder_valid;
+  int32_t encoder_valid; // 0 or 1
 } exo_arm_inputs;
 
 // Memory of an arm's law. Its content is the library's; it may be copied as bytes, to keep and restore a state.
@@ -407,7 +407,7 @@ typedef struct exo_arm_outputs {
   // Force on the robot at the handle that tau_a amounts to (eq:dob_input, limited); base frame.
   exo_real f_a[3]; // N
   // Whether f_max (under passive_bounded) or tau_max leaves less than tau_demand.
-  int32_t saturated;
+  int32_t saturated; // 0 or 1
   // Smallest singular value of the handle's Jacobian; 0 at a singularity.
   exo_real sigma_min; // m/rad
   // Energy stored in nominal mass and coupling spring; 0 if alpha = 0, for which it is not defined.
@@ -422,21 +422,21 @@ typedef struct exo_arm_outputs {
   // Joint torques J' K y before any limit (eq:dob_input).
   exo_real tau_demand[3]; // N.m
   // Whether the controller was in the loop at this tick.
-  int32_t engaged;
+  int32_t engaged; // 0 or 1
   // Whether the joints' motion since the last tick exceeded dq_max or ddq_max, to which the passivity argument is
   // restricted.
-  int32_t outside_bounds;
+  int32_t outside_bounds; // 0 or 1
   // Whether sigma_min lies below singularity.sigma_slow, so that the nominal is damped more.
-  int32_t slowed;
+  int32_t slowed; // 0 or 1
   // Whether hold, dp_n_max or the position box kept the nominal back at this tick.
-  int32_t held;
+  int32_t held; // 0 or 1
   // Share of the torques that the energy budget left at this tick; 1 unless something is wrong.
   exo_real share;
   // Whether the tank is below 0: a motion beyond dq_max and ddq_max cost more than it held; no torque until it is
   // repaid.
-  int32_t debt;
+  int32_t debt; // 0 or 1
   // Whether on any axis a stiff hand has made a swing grow and has not been quiet since.
-  int32_t stiff_hand_detected;
+  int32_t stiff_hand_detected; // 0 or 1
   // Damping on top of D_n for a stiff hand; base frame.
   exo_real stiff_hand_D[3]; // N.s/m
   // Stiffness of the hand in the last swing that counted, 0 before the first; base frame.
@@ -446,21 +446,21 @@ typedef struct exo_arm_outputs {
   // Moment of the human about the handle under ft.source 2, for information: the law moves a point; base frame.
   exo_real ft_moment[3]; // N.m
   // What is wrong with the force sensor.
-  int32_t ft_fault;
+  int32_t ft_fault; // 0 none, 1 not_finite, 2 over_range, 3 rate, 4 stuck, 5 dropout
   // How far the last tare has come.
-  int32_t ft_tare_state;
+  int32_t ft_tare_state; // 0 off, 1 running, 2 done, 3 failed
   // Why the last tare failed.
-  int32_t ft_tare_failure;
+  int32_t ft_tare_failure; // 0 none, 1 fault, 2 moved, 3 unsteady, 4 too_large
   // Force that the sensor shows when nothing acts on it, from the last tare that was done; sensor frame.
   exo_real ft_bias_force[3]; // N
   // Moment that the sensor shows when nothing acts on it, from the last tare that was done; sensor frame.
   exo_real ft_bias_torque[3]; // N.m
   // State of the supervision; without it off, engaged or hold, as engage and hold say.
-  int32_t state;
+  int32_t state; // 0 off, 1 init, 2 ready, 3 engaged, 4 hold, 5 soft_stop, 6 fault
   // Why the law does not simply run at this tick; always 0 without supervision.
-  int32_t diagnostic;
+  int32_t diagnostic; // 0 none, 1 emergency_stop, 2 encoder_invalid, 3 not_finite, 4 heartbeat_lost, 5 ft_invalid, 6 energy_debt, 7 outside_bounds, 8 saturated, 9 not_acknowledged, 10 not_enabled, 11 preparing, 12 not_engaged, 13 engage_stuck
   // The first fault, kept until it is acknowledged; 0 if there is none.
-  int32_t first_fault;
+  int32_t first_fault; // 0 none, 1 emergency_stop, 2 encoder_invalid, 3 not_finite, 4 heartbeat_lost, 5 ft_invalid, 6 energy_debt, 7 outside_bounds, 8 saturated, 9 not_acknowledged, 10 not_enabled, 11 preparing, 12 not_engaged, 13 engage_stuck
   // Share of its force that the law exerts; it rises from 0 when the controller engages and falls in a soft stop.
   exo_real authority;
   // Nominal mass matrix M_n(q), row by row; 0 in task space.
@@ -492,7 +492,7 @@ typedef struct exo_variable {
 // Parameters of the law of one axis. Any bits may come from C: what cannot be used is refused by name.
 typedef struct exo_axis_parameters {
   // Admittance law.
-  int32_t law;
+  int32_t law; // 1 standard, 2 passive, 3 passive_applied, 4 passive_bounded, 5 natural, 6 sliding_mode
   // Nominal mass (eq:nom_dyn).
   exo_real M_n; // kg
   // Nominal damping (eq:nom_dyn).
@@ -525,7 +525,7 @@ typedef struct exo_axis_parameters {
   // Largest speed of the nominal; 0 = no limit.
   exo_real dq_n_max; // m/s
   // Whether the nominal keeps within q_n_min and q_n_max.
-  int32_t q_n_box;
+  int32_t q_n_box; // 0 or 1
   // Least position of the nominal.
   exo_real q_n_min; // m
   // Largest position of the nominal.
@@ -542,10 +542,10 @@ typedef struct exo_axis_inputs {
   exo_real tau_h; // N
   // Whether the controller is in the loop. It engages at the first tick at which this is true, with q_n = q and dq_n
   // = 0; while it is false tau_a is 0.
-  int32_t engage;
+  int32_t engage; // 0 or 1
   // Whether the nominal stays where it is: the coupling then carries any load within tau_max without drift; the laws
   // 1 to 4 in torque form only.
-  int32_t hold;
+  int32_t hold; // 0 or 1
 } exo_axis_inputs;
 
 // Memory of one axis's law. Its content is the library's; it may be copied as bytes, to keep and restore a state.
@@ -577,16 +577,16 @@ typedef struct exo_axis_outputs {
   // Share of the force that the energy budget left at this tick; 1 unless something is wrong.
   exo_real share;
   // Whether tau_max leaves less than tau_demand.
-  int32_t saturated;
+  int32_t saturated; // 0 or 1
   // Whether hold, dq_n_max or the position box kept the nominal back at this tick.
-  int32_t held;
+  int32_t held; // 0 or 1
   // Whether the motion since the last tick exceeded v_max or a_max, to which the passivity argument is restricted.
-  int32_t outside_bounds;
+  int32_t outside_bounds; // 0 or 1
   // Whether the controller was in the loop at this tick.
-  int32_t engaged;
+  int32_t engaged; // 0 or 1
   // Whether the tank is below 0: a motion beyond v_max and a_max cost more than it held; no force until it is
   // repaid.
-  int32_t debt;
+  int32_t debt; // 0 or 1
 } exo_axis_outputs;
 
 #ifdef __cplusplus
