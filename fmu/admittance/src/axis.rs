@@ -106,6 +106,7 @@ impl Axis {
     }
 
     /// The axis engages at the position `q` (m): q_n = q, v_n = 0, nothing is known of the motion.
+    #[expect(clippy::eq_op, reason = "q_n - q: 0, and no number where q is none")]
     pub fn engage(&self, q: Real) -> Sensed {
         Sensed {
             q,

@@ -68,12 +68,15 @@ pub enum Yields {
     Slips,
 }
 
-/// The items of a choice among the first `N` laws.
-const fn items<const N: usize>() -> [Item; N] {
+/// The items of a choice among the `N` laws, or among those that are offered.
+const fn items<const N: usize>(all: bool) -> [Item; N] {
     let mut items = [Law::Standard.item(); N];
-    let mut i = 0;
-    while i < N {
-        items[i] = Law::ALL[i].item();
+    let (mut n, mut i) = (0, 0);
+    while i < Law::ALL.len() {
+        if all || Law::ALL[i].row().offered {
+            items[n] = Law::ALL[i].item();
+            n += 1;
+        }
         i += 1;
     }
     items
@@ -85,21 +88,24 @@ const ABOUT: &str = "Admittance law: which reaction the nominal feels once the f
 pub const LAW: Enumeration = Enumeration {
     name: "Law",
     about: ABOUT,
-    items: &items::<{ Law::ALL.len() }>(),
+    items: &items::<{ Law::ALL.len() }>(true),
 };
 
 /// The type of `law` where the comparators are not.
 pub const OFFERED_LAW: Enumeration = Enumeration {
     name: "Law",
     about: ABOUT,
-    items: &items::<{ offered() }>(),
+    items: &items::<{ offered() }>(false),
 };
 
-/// How many laws are offered: the first ones.
+/// How many laws are offered.
 const fn offered() -> usize {
-    let mut n = 0;
-    while n < Law::ALL.len() && Law::ALL[n].row().offered {
-        n += 1;
+    let (mut n, mut i) = (0, 0);
+    while i < Law::ALL.len() {
+        if Law::ALL[i].row().offered {
+            n += 1;
+        }
+        i += 1;
     }
     n
 }

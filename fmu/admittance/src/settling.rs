@@ -57,6 +57,10 @@ impl<const N: usize> Ledger<N> {
     /// Settles the sample that ends now at the position `q` (m). Where the tank is kept, the law as it was `sensed` gives up
     /// as much of what it stores as must be for the tank to stay ≥ 0.
     #[inline]
+    #[expect(
+        clippy::neg_cmp_op_on_partial_ord,
+        reason = "what was created is no number: it is not afforded either"
+    )]
     pub fn settle<L: Coordinates<N>>(
         &self,
         law: &L,
