@@ -8,7 +8,7 @@
 //! ```
 //!
 //! A held force does f·Δq of work whatever the path, so this is exact, one sample later: at t_{k+1}, after the slip.
-//! The ports are (f_h ; K v_n/alpha) and (dq ; −tau_a).
+//! The ports are (f_h ; K v_m/alpha) and (dq ; −tau_a).
 //!
 //! Under a law that keeps its tank ([`Row::keeps_tank`](crate::law::Row::keeps_tank)) the tank stays ≥ 0, and with it G ≤ E_0,
 //! for every motion within the [`Reach`]:

@@ -66,8 +66,8 @@
 //! | stored energy, H | what is in the nominal mass and the spring |
 //! | created energy, G | what the sampled law gave out and nobody brought; negative: dissipated |
 //! | supplied energy | what the human's port brings in a sample |
-//! | taken energy | what the law is sure to take in the sample that begins: the least that it will not give out |
-//! | need | the most that the sample which begins can cost: the most work that the force can do within the reach, less what is taken |
+//! | taken energy | the least energy that the law absorbs in the sample that begins, whatever the robot does |
+//! | need | the most work that the force can do in the sample that begins, within the reach, less the taken energy |
 //! | tank, E | E_0 less what was created, refilled by dissipation up to E_0 |
 //! | ledger | the accounts of H, G and E, exact to rounding |
 //! | settle | to account for the sample that ended, and to give up stored energy where the tank cannot pay otherwise |
@@ -95,14 +95,16 @@
 //! | [`retune`] | live gain changes that do not raise the stored energy |
 //! | [`motion`] | backward difference, low pass |
 //! | [`real`] | the number: double or single precision, and its functions |
+//! | [`one_axis`] | the complete law of one axis: its parameters, inputs and outputs, as the FMU and the C library show them |
+//! | [`origin`] | the position from which single precision counts |
 //! | [`listed`] | laws as messages list them |
 //! | [`advice`] | gains that are accepted, but probably not meant |
 //! | [`hand`] | a hand too stiff for the gains: seen by its growing swing, answered with damping |
 //! | [`servo`] | the law for a drive that takes positions and velocities, one axis |
 //! | [`comparator`], [`natural`], [`sliding_mode`] | two other admittance controllers, to compare with, one axis |
 //!
-//! No heap, no clock, no I/O, no unsafe, no panic; it depends on `nalgebra` and `libm`. The feature `serde` makes the
-//! state storable.
+//! No heap, no clock, no I/O, no unsafe, no panic; it depends on `nalgebra`, `libm` and the rows of `declaration`. The
+//! feature `serde` makes the state storable.
 
 #![no_std]
 #![forbid(unsafe_code)]

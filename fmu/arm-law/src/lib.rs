@@ -2,6 +2,7 @@
 //!
 //! | module | what |
 //! |---|---|
+//! | [`parameters`], [`signals`], [`choices`] | what the FMU and the C library show of it: parameters; inputs and outputs; the items of its choices |
 //! | [`displacement`] | the handle's displacement from a pose, for single precision |
 //! | [`handle`] | a tick of the law as it shows at the handle and at the joints |
 //! | [`joint_space`] | the law in joint space, with M_n(q) and C_n(q, dq) |
@@ -16,8 +17,8 @@
 //! | [`wrench`] | the hand's force from a six-axis force sensor: tare, tool weight, lever arm, faults, filter, deadband |
 //! | [`task_space`] | the law at the handle, its torques and its ledger at the joints |
 //!
-//! No heap, no clock, no I/O, no unsafe, no panic; it depends on `admittance` and `nalgebra`. The feature `serde` makes
-//! the state storable. The package `arm-law-f32` compiles these sources in single precision.
+//! No heap, no clock, no I/O, no unsafe, no panic; it depends on `admittance`, `nalgebra` and the rows of `declaration`.
+//! The feature `serde` makes the state storable. The package `arm-law-f32` compiles these sources in single precision.
 
 #![no_std]
 #![forbid(unsafe_code)]

@@ -2,7 +2,7 @@
 //!
 //! A model is a struct whose fields are its variables ([`declaration`]) and which can be initialized and stepped
 //! ([`Model`]). [`fmi2!`] turns it into the 34 C functions of the standard. This crate knows no robot; the smallest
-//! model, a first-order lag, is in `examples/lag.rs`.
+//! model, an integrator, is in `examples/integrator.rs`.
 //!
 //! The life of a call, for every function alike:
 //! 1. the C function ([`fmi2!`], module [`functions`]) hands over to the guard with its name and a closure;
