@@ -6,10 +6,10 @@
 //!
 //! | module | what |
 //! |---|---|
-//! | [`platform`] | the table of the platforms |
+//! | [`mod@platform`] | the table of the platforms |
 //! | [`debian`], [`toolchain`] | compilers, linkers, emulators, fetched into `target/toolchains` |
 //! | [`compile`] | one platform's libraries |
-//! | [`firmware`], [`processor`] | the C library for a microcontroller, and run emulated |
+//! | [`mod@firmware`], [`processor`] | the C library for a microcontroller, and run emulated |
 //! | [`mod@inspect`] | exports, needed libraries, floor of the C library |
 //! | [`runtime`] | what the tools link in, with its licences |
 //! | [`host`] | the C host, and what two platforms must agree on |

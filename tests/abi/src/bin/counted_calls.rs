@@ -6,7 +6,7 @@
 //!
 //! The FMU runs at its start values with the step of its default experiment. After some calls that nobody counts, it makes N
 //! steps, then gets all outputs N times, then sets all inputs N times, as an importer does: one call for each type that
-//! occurs. [`part`] ends each of the three. It prints the number of outputs and of inputs.
+//! occurs. `counted_part` ends each of the three. It prints the number of outputs and of inputs.
 
 use abi::{Fmu, Instance, Kind, Status};
 use std::path::Path;
