@@ -180,6 +180,7 @@ fn in_servo_form(tick: &servo::Tick, energy: &servo::Energy, engaged: bool) -> A
     }
 }
 
+/// What a comparator shows. It has no storage and no tank: H, G and the tank are 0.
 fn compared(tick: &comparator::Tick, engaged: bool) -> AxisOutputs {
     AxisOutputs {
         tau_a: tick.f,
@@ -188,6 +189,7 @@ fn compared(tick: &comparator::Tick, engaged: bool) -> AxisOutputs {
         dq_n: tick.dq_n,
         e_nr: tick.e_nr,
         dq: tick.dq,
+        tank: 0.0,
         saturated: tick.is_saturated().into(),
         engaged: engaged.into(),
         ..AxisOutputs::default()

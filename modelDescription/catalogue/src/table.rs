@@ -6,8 +6,8 @@ use model_description::entry::Kind;
 use std::fmt::Write as _;
 
 /// Parameters that are set, so that something happens: the arm meets a table with a payload and measures with noise, both
-/// arms hold one, the hand pushes and is stiff.
-const SETTINGS: [(&str, &str, f64); 11] = [
+/// arms hold one, the hand pushes and is stiff: FMU, variable, value.
+pub const SETTINGS: [(&str, &str, f64); 11] = [
     ("ExoskeletonArm", "ft.noise", 0.2),
     ("ExoskeletonArm", "table.z", -0.3771),
     ("ExoskeletonArm", "payload.m", 17.5),

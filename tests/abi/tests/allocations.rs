@@ -2,6 +2,7 @@
 //! library only; the functions called are the generic ones behind the C symbols.
 
 use catalogue::models::*;
+use catalogue::table::SETTINGS;
 use counting::{Counting, allocations};
 use declaration::Causality;
 use export::ffi::{CO_SIMULATION, Callbacks, Component, Status};
@@ -15,7 +16,7 @@ use std::ffi::CString;
 #[global_allocator]
 static ALLOCATOR: Counting = Counting;
 
-/// A silent instance, initialized.
+/// A silent instance, set up so that something happens ([`SETTINGS`]), and initialized.
 fn initialized<M: Model>() -> Component {
     let guid = CString::new(M::DESCRIPTION.guid()).expect("no null byte");
     let callbacks = Callbacks {
@@ -30,10 +31,33 @@ fn initialized<M: Model>() -> Component {
     unsafe {
         let c = f::instantiate::<M>(n, CO_SIMULATION, g, location, &raw const callbacks, 0, 0);
         assert!(!c.is_null());
+        for (reference, value) in settings::<M>() {
+            let status = f::set::<M, f64>(
+                c,
+                Function::fmi2SetReal,
+                &raw const reference,
+                1,
+                &raw const value,
+            );
+            assert_eq!(status, Status::Ok);
+        }
         assert_eq!(f::enter_initialization_mode::<M>(c), Status::Ok);
         assert_eq!(f::exit_initialization_mode::<M>(c), Status::Ok);
         c
     }
+}
+
+/// The Reals among the settings.
+fn settings<M: Model>() -> Vec<(u32, f64)> {
+    let interface = Interface::of::<M>().expect("a legal declaration");
+    let of_this_fmu = SETTINGS.iter().filter(|(fmu, ..)| *fmu == interface.name);
+    let real = |name: &str| {
+        let mut scalars = interface.scalars.iter();
+        scalars.find(|s| s.name == name && matches!(s.kind, Kind::Real { .. }))
+    };
+    of_this_fmu
+        .filter_map(|(_, name, value)| Some((real(name)?.reference, *value)))
+        .collect()
 }
 
 /// Reals of a causality: value reference, start value, and how far an input moves about it, by its unit.
