@@ -74,10 +74,7 @@ fn the_loop_by_dlopen_equals_the_loop_of_the_linked_models() {
     let n = 1500;
     for (law, mass) in [(4, 6.0), (2, 3.5)] {
         let folder = tempfile::tempdir().expect("a temporary folder");
-        let (law_text, mass_text) = (
-            format!("controller.parameters.law={law}"),
-            format!("testbed.M={mass}"),
-        );
+        let (law_text, mass_text) = (format!("controller.law={law}"), format!("testbed.M={mass}"));
         let output = native_loop(folder.path(), n, &["--set", &law_text, "--set", &mass_text]);
         let stderr = String::from_utf8_lossy(&output.stderr);
         assert!(output.status.success() && stderr.is_empty(), "{stderr}");
@@ -113,8 +110,8 @@ fn mistakes_on_the_command_line_are_named() {
     for (more, part) in [
         (&["--set", "controller.K_Q=1"][..], "K_Q"),
         (&["--set", "plant.M=1"], "plant.M=1"),
-        (&["--set", "controller.parameters.law=2.5"], "law"),
-        (&["--set", "controller.parameters.law=9"], "law = 9"),
+        (&["--set", "controller.law=2.5"], "law"),
+        (&["--set", "controller.law=9"], "law = 9"),
         (&["--set", "testbed.M=-1"], "M = -1"),
         (&["--speed", "9"], "--speed"),
         (&["--set"], "--set needs a value"),
