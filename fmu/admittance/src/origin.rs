@@ -41,10 +41,15 @@ impl<const N: usize> Origin<N> {
         self.q_0.as_ref()
     }
 
-    /// Moves to the positions `q` of a tick at which the law may engage, if it is out of the loop.
-    pub fn moves(&mut self, q: &SVector<f64, N>, engage: bool) -> Option<Move<N>> {
+    /// Whether it moves at a tick with the positions `q` at which the law may engage: if it is out of the loop.
+    pub fn would_move(&self, q: &SVector<f64, N>, engage: bool) -> bool {
         let is_known = q.iter().all(|q| q.is_finite());
-        if !(cfg!(feature = "f32") && engage && !self.engaged && is_known) {
+        cfg!(feature = "f32") && engage && !self.engaged && is_known
+    }
+
+    /// Moves to the positions `q` of such a tick.
+    pub fn moves(&mut self, q: &SVector<f64, N>, engage: bool) -> Option<Move<N>> {
+        if !self.would_move(q, engage) {
             return None;
         }
         let before = self.q_0.replace(*q).unwrap_or_else(SVector::zeros);

@@ -187,6 +187,18 @@ impl ArmLaw {
     /// [`NotFinite`], without supervision: law and outputs stay as they were before the tick. With supervision that is a fault
     /// with a name and no torque.
     pub fn tick(&mut self, inputs: &ArmInputs, outputs: &mut ArmOutputs) -> Result<(), NotFinite> {
+        let q = Vector3::from(inputs.q);
+        if !self.counting.would_move(&q, self.may_engage(inputs)) {
+            return self.tick_here(inputs, outputs);
+        }
+        // Seldom, and in single precision only: a tick that is refused leaves the origin where it was, too.
+        let mut law = *self;
+        law.tick_here(inputs, outputs)?;
+        *self = law;
+        Ok(())
+    }
+
+    fn tick_here(&mut self, inputs: &ArmInputs, outputs: &mut ArmOutputs) -> Result<(), NotFinite> {
         let mut ran = Ran::default();
         let q = self.counted(inputs)?;
         if self.supervisor.is_some() {
@@ -228,14 +240,19 @@ impl ArmLaw {
         Ok(())
     }
 
+    /// Whether it may engage at a tick, and positions are counted.
+    fn may_engage(&self, inputs: &ArmInputs) -> bool {
+        match self.law {
+            InSpace::Task(_) => inputs.engage != 0,
+            InSpace::Joint(_) => false,
+        }
+    }
+
     /// The joint angles from where they are counted, rad. In joint space that is zero: the nominal arm is one at the angles
     /// themselves.
     fn counted(&mut self, inputs: &ArmInputs) -> Result<Vector3<Real>, NotFinite> {
         let q = Vector3::from(inputs.q);
-        let may_engage = match self.law {
-            InSpace::Task(_) => inputs.engage != 0,
-            InSpace::Joint(_) => false,
-        };
+        let may_engage = self.may_engage(inputs);
         if let Some(Move { q_0, .. }) = self.counting.moves(&q, may_engage) {
             self.count_from(&q_0).map_err(|_| NotFinite)?;
         }
