@@ -63,6 +63,12 @@ impl<const N: usize> Reach<N> {
         }
         Ok(())
     }
+
+    /// Largest change of each coordinate in a sample of `T` (s), with the rounding that is allowed for, m (rad).
+    #[allow(non_snake_case, reason = "the paper's symbol")]
+    pub fn steps(&self, T: Real) -> SVector<Real, N> {
+        self.v_max.map(|v_max| v_max * T * (1.0 + ROUNDING))
+    }
 }
 
 impl<const N: usize> SampleReach<N> {
@@ -71,7 +77,7 @@ impl<const N: usize> SampleReach<N> {
         Self {
             reach: *reach,
             T,
-            step: reach.v_max.map(|v_max| v_max * T * (1.0 + ROUNDING)),
+            step: reach.steps(T),
             change: reach.a_max.map(|a_max| a_max * T * T * (1.0 + ROUNDING)),
         }
     }

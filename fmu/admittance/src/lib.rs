@@ -94,6 +94,7 @@
 //! | [`parameters`] | [`Settings`], [`Gains`], their checks and the error that names the culprit |
 //! | [`retune`] | live gain changes that do not raise the stored energy |
 //! | [`motion`] | backward difference, low pass |
+//! | [`encoder`] | whether a sensed position can be, and what the law is told where it cannot |
 //! | [`real`] | the number: double or single precision, and its functions |
 //! | [`one_axis`] | the complete law of one axis: its parameters, inputs and outputs, as the FMU and the C library show them |
 //! | [`origin`] | the position from which single precision counts |
@@ -120,6 +121,7 @@ pub mod axis;
 pub mod bounds;
 pub mod budget;
 pub mod comparator;
+pub mod encoder;
 pub mod hand;
 pub mod law;
 pub mod ledger;

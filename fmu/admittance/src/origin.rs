@@ -59,6 +59,11 @@ impl<const N: usize> Origin<N> {
         })
     }
 
+    /// Whether the law was in the loop at the last tick.
+    pub const fn is_engaged(&self) -> bool {
+        self.engaged
+    }
+
     /// What has become of the tick.
     pub fn ticked(&mut self, engaged: bool) {
         self.engaged = engaged;

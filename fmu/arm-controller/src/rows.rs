@@ -27,6 +27,8 @@ pub struct ArmController {
     pub parameters: ArmParameters,
 
     pub(crate) ticks: Ticks,
+    /// ticks since the first one of the last step: how old the joint angles are when they are next read
+    pub(crate) unread: u32,
     pub(crate) arm_law: Option<ArmLaw>,
 }
 

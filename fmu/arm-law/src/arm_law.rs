@@ -2,7 +2,7 @@
 //!
 //! It knows no FMI: the FMU ArmController and the C library are shells around it.
 
-use crate::choices::WRENCH;
+use crate::choices::{DEBT, WRENCH};
 use crate::displacement::Origin;
 use crate::joint_space::{JointSpace, Nominal};
 use crate::kinematics::{Kinematics, Pose, sin_cos};
@@ -11,11 +11,12 @@ use crate::signals::{ArmInputs, ArmOutputs};
 use crate::singularity::Singularity;
 use crate::space::InSpace;
 use crate::stiff_hand::{self, Detectors, StiffHandSeen};
-use crate::supervision::{self, Demand, Report, Status, Supervisor};
+use crate::supervision::{self, Demand, Report, State, Status, Supervisor};
 use crate::task_space::TaskSpace;
 use crate::wrench::conditioner::{Made, Reading};
 use crate::wrench::frame::FixedFrame;
 use crate::wrench::{Conditioned, Conditioner, Fault, TareFailure, Wrench};
+use admittance::encoder::{self, Believed, Encoders, Positions};
 use admittance::origin::{self, Move};
 use admittance::{Bounds, Ledger, ParameterError, Real, Request, real};
 use nalgebra::{Matrix3, Vector3};
@@ -38,6 +39,8 @@ struct Ran {
     stiff_hand: StiffHandSeen,
     /// what the law knows of the hand: about the handle, in the base frame
     ft: Conditioned,
+    /// what is wrong with the joint angles
+    encoder: Option<encoder::Fault>,
     /// what supervision says; without it, that the law does what `engage` and `hold` say
     status: Status,
 }
@@ -53,6 +56,7 @@ impl Default for Ran {
             slowed: false,
             stiff_hand: StiffHandSeen::default(),
             ft: Conditioned::default(),
+            encoder: None,
             status: Status::of(Demand::Rest),
         }
     }
@@ -73,6 +77,9 @@ pub struct ArmLaw {
     counting: origin::Origin<3>,
 
     supervisor: Option<Supervisor>,
+    encoders: Encoders<3>,
+    /// what the joints last got, N·m
+    tau: Vector3<Real>,
     conditioner: Conditioner,
     stiff_hand: Detectors,
     law: InSpace,
@@ -106,6 +113,8 @@ impl ArmLaw {
             frame: parameters.ft.sensed_in().fixed(),
             source: parameters.ft.source,
             conditioner: Conditioner::new(parameters.ft, T)?,
+            encoders: parameters.encoder.checks(&reach, T),
+            tau: Vector3::zeros(),
             law: match space {
                 Space::Task => {
                     InSpace::Task(TaskSpace::new(settings, gains, bounds, reach, limits)?)
@@ -181,43 +190,66 @@ impl ArmLaw {
         }
     }
 
-    /// One tick. What came of it is written into `outputs`.
+    /// One tick, with joint angles that were read for it. What came of it is written into `outputs`.
     ///
     /// # Errors
     /// [`NotFinite`], without supervision: law and outputs stay as they were before the tick. With supervision that is a fault
     /// with a name and no torque.
     pub fn tick(&mut self, inputs: &ArmInputs, outputs: &mut ArmOutputs) -> Result<(), NotFinite> {
-        let q = Vector3::from(inputs.q);
-        if !self.counting.would_move(&q, self.may_engage(inputs)) {
-            return self.tick_here(inputs, outputs);
+        self.tick_after(1, inputs, outputs)
+    }
+
+    /// The same with joint angles that were read `after` ticks since the reading before them; 0: they are those of the last
+    /// tick. An importer whose communication step is not T reads them so.
+    ///
+    /// # Errors
+    /// Those of [`tick`](Self::tick).
+    pub fn tick_after(
+        &mut self,
+        after: u32,
+        inputs: &ArmInputs,
+        outputs: &mut ArmOutputs,
+    ) -> Result<(), NotFinite> {
+        let mut encoders = self.encoders;
+        let reading = Positions {
+            q: inputs.q.into(),
+            valid: inputs.encoder_valid != 0,
+            after,
+        };
+        let believed = encoders.read(&reading, self.counting.is_engaged(), &self.tau);
+        let moves = believed
+            .q
+            .is_some_and(|q| self.counting.would_move(&q, self.may_engage(inputs)));
+        if moves {
+            // Seldom, and in single precision only: a tick that is refused leaves the origin where it was, too.
+            let mut law = *self;
+            law.tick_believing(&believed, inputs, outputs)?;
+            *self = law;
+        } else {
+            self.tick_believing(&believed, inputs, outputs)?;
         }
-        // Seldom, and in single precision only: a tick that is refused leaves the origin where it was, too.
-        let mut law = *self;
-        law.tick_here(inputs, outputs)?;
-        *self = law;
+        self.encoders = encoders;
         Ok(())
     }
 
-    fn tick_here(&mut self, inputs: &ArmInputs, outputs: &mut ArmOutputs) -> Result<(), NotFinite> {
-        let mut ran = Ran::default();
-        let q = self.counted(inputs)?;
+    fn tick_believing(
+        &mut self,
+        believed: &Believed<3>,
+        inputs: &ArmInputs,
+        outputs: &mut ArmOutputs,
+    ) -> Result<(), NotFinite> {
+        let mut ran = Ran {
+            encoder: believed.fault,
+            ..Ran::default()
+        };
+        let q = believed.q.map(|q| self.counted(&q, inputs)).transpose()?;
         if self.supervisor.is_some() {
-            self.supervised(inputs, &q, &mut ran);
+            self.supervised(inputs, q.as_ref(), believed.doubted, &mut ran);
         } else {
-            let demand = match (inputs.engage != 0, inputs.hold != 0) {
-                (false, _) => Demand::Rest,
-                (true, hold) => Demand::Run {
-                    authority: 1.0,
-                    freedom: if hold { 0.0 } else { 1.0 },
-                },
-            };
-            self.turn(&mut ran.pose, &q);
-            let made = self.sensed(&q, inputs, &mut ran);
-            self.run(&q, demand, &mut ran)?;
-            self.conditioner.keep(&made);
-            ran.status = Status::of(demand);
+            self.unsupervised(inputs, q.as_ref(), believed.doubted, &mut ran)?;
         }
         self.counting.ticked(ran.outcome.engaged);
+        self.tau = ran.outcome.tau;
         self.show(&ran, outputs);
         Ok(())
     }
@@ -248,23 +280,66 @@ impl ArmLaw {
         }
     }
 
-    /// The joint angles from where they are counted, rad. In joint space that is zero: the nominal arm is one at the angles
-    /// themselves.
-    fn counted(&mut self, inputs: &ArmInputs) -> Result<Vector3<Real>, NotFinite> {
-        let q = Vector3::from(inputs.q);
+    /// The joint angles `q` (rad) from where they are counted. In joint space that is zero: the nominal arm is one at the
+    /// angles themselves.
+    fn counted(
+        &mut self,
+        q: &Vector3<f64>,
+        inputs: &ArmInputs,
+    ) -> Result<Vector3<Real>, NotFinite> {
         let may_engage = self.may_engage(inputs);
-        if let Some(Move { q_0, .. }) = self.counting.moves(&q, may_engage) {
+        if let Some(Move { q_0, .. }) = self.counting.moves(q, may_engage) {
             self.count_from(&q_0).map_err(|_| NotFinite)?;
         }
-        Ok(self.counting.counted(&q))
+        Ok(self.counting.counted(q))
+    }
+
+    /// One tick in which `engage` and `hold` decide. Without joint angles the law rests, and engages anew with them.
+    fn unsupervised(
+        &mut self,
+        inputs: &ArmInputs,
+        q: Option<&Vector3<Real>>,
+        doubted: bool,
+        ran: &mut Ran,
+    ) -> Result<(), NotFinite> {
+        let Some(q) = q else {
+            if ran.encoder == Some(encoder::Fault::NotFinite) {
+                return Err(NotFinite);
+            }
+            let last = self.q;
+            self.turn(&mut ran.pose, &last);
+            let made = self.sensed(&last, inputs, ran);
+            self.abandon(ran);
+            self.conditioner.keep(&made);
+            return Ok(());
+        };
+        let demand = match (inputs.engage != 0, inputs.hold != 0) {
+            (false, _) => Demand::Rest,
+            (true, hold) => Demand::Run {
+                authority: 1.0,
+                freedom: if hold { 0.0 } else { 1.0 },
+            },
+        };
+        self.turn(&mut ran.pose, q);
+        let made = self.sensed(q, inputs, ran);
+        self.run(q, demand, ran)?;
+        self.conditioner.keep(&made);
+        ran.outcome.outside_bounds |= doubted;
+        ran.status = Status::of(demand);
+        Ok(())
     }
 
     /// One tick in which supervision decides. What cannot be trusted does not reach the law: without joint angles it rests
     /// where it last knew the arm to be, without a force it feels none.
-    fn supervised(&mut self, inputs: &ArmInputs, q: &Vector3<Real>, ran: &mut Ran) {
-        let is_known = q.iter().all(|q| q.is_finite());
-        let is_seen = is_known && inputs.encoder_valid != 0;
-        let q = if is_known { *q } else { self.q };
+    fn supervised(
+        &mut self,
+        inputs: &ArmInputs,
+        q: Option<&Vector3<Real>>,
+        doubted: bool,
+        ran: &mut Ran,
+    ) {
+        let is_seen = q.is_some() && (doubted || ran.encoder.is_none());
+        let q = q.map_or(self.q, |q| *q);
         self.turn(&mut ran.pose, &q);
         let made = self.sensed(&q, inputs, ran);
         let demand = self.decided(&supervision::Inputs {
@@ -288,6 +363,7 @@ impl ArmLaw {
         let report = match outcome {
             Ok(()) => {
                 self.conditioner.keep(&made);
+                ran.outcome.outside_bounds |= doubted;
                 Report {
                     finite: true,
                     debt: self.ledger().is_in_debt(),
@@ -423,6 +499,7 @@ impl ArmLaw {
             slowed,
             stiff_hand,
             ft,
+            encoder,
             status,
         } = ran;
         let absolute = |p: &Vector3<Real>| self.origin().map_or(*p, |p_0| p_0 + p).into();
@@ -447,7 +524,11 @@ impl ArmLaw {
         outputs.stiff_hand_detected = stiff_hand.detected.into();
         outputs.stiff_hand_D = stiff_hand.D.into();
         outputs.stiff_hand_k_h = stiff_hand.k_h.into();
-        outputs.state = status.state.number();
+        outputs.encoder_fault = encoder.map_or(0, encoder::Fault::number);
+        outputs.state = match status.state {
+            State::Engaged | State::Hold if self.ledger().is_in_debt() => DEBT,
+            state => state.number(),
+        };
         outputs.diagnostic = status.diagnostic.number();
         outputs.first_fault = status.first_fault.number();
         outputs.authority = status.authority;

@@ -1,6 +1,7 @@
 //! Choices, states and faults: the items of the variables that hold one of a list.
 
 use crate::supervision::{Diagnostic, State};
+use admittance::encoder::Fault as Encoder;
 use declaration::{Enumeration, Item};
 
 /// `space`: the nominal is a mass at the handle.
@@ -88,6 +89,30 @@ pub const FAULT: Enumeration = Enumeration {
     ],
 };
 
+/// The type of `encoder.fault`: [`Encoder`] by number.
+pub const ENCODER_FAULT: Enumeration = Enumeration {
+    name: "EncoderFault",
+    about: "What is wrong with the joint angles",
+    items: &[
+        item(0, "none", "nothing"),
+        encoder(Encoder::NotFinite, "an angle is NaN or infinite"),
+        encoder(Encoder::OverRange, "an angle lies beyond encoder.range"),
+        encoder(
+            Encoder::Jump,
+            "an angle has moved faster than dq_max since the last reading",
+        ),
+        encoder(
+            Encoder::Stuck,
+            "an angle has not changed while its torque changed by encoder.stuck_torque",
+        ),
+        encoder(Encoder::Invalid, "encoder_valid is false"),
+    ],
+};
+
+const fn encoder(fault: Encoder, about: &'static str) -> Item {
+    item(fault.number(), fault.name(), about)
+}
+
 /// The type of `ft.tare_state`.
 pub const TARE_STATE: Enumeration = Enumeration {
     name: "TareState",
@@ -129,7 +154,10 @@ pub const TARE_FAILURE: Enumeration = Enumeration {
     ],
 };
 
-/// The type of `state`: [`State`] by number.
+/// `state`: shown in place of engaged and hold while the tank is below 0. The law deals with it, supervision does not.
+pub const DEBT: i32 = 7;
+
+/// The type of `state`: [`State`] by number, and [`DEBT`].
 pub const STATE: Enumeration = Enumeration {
     name: "State",
     about: "What the controller is doing",
@@ -169,6 +197,11 @@ pub const STATE: Enumeration = Enumeration {
             State::Fault.name(),
             "waits for an acknowledgement, no torque",
         ),
+        item(
+            DEBT,
+            "debt",
+            "engaged or hold, but the tank is below 0: no torque until it is repaid",
+        ),
     ],
 };
 
@@ -181,7 +214,7 @@ pub const DIAGNOSTIC: Enumeration = Enumeration {
         reason(Diagnostic::EmergencyStop, "fault: pressed"),
         reason(
             Diagnostic::EncoderInvalid,
-            "fault: joint angles marked invalid or not finite",
+            "fault: the joint angles have one, encoder.fault",
         ),
         reason(Diagnostic::NotFinite, "fault: the law's result is not"),
         reason(
@@ -198,7 +231,7 @@ pub const DIAGNOSTIC: Enumeration = Enumeration {
         ),
         reason(
             Diagnostic::OutsideBounds,
-            "warning: motion beyond dq_max or ddq_max",
+            "warning: motion beyond dq_max or ddq_max, or q is doubted, encoder.fault",
         ),
         reason(
             Diagnostic::Saturated,

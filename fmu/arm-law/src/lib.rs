@@ -4,6 +4,7 @@
 //! |---|---|
 //! | [`parameters`], [`signals`], [`choices`] | what the FMU and the C library show of it: parameters; inputs and outputs; the items of its choices |
 //! | [`displacement`] | the handle's displacement from a pose, for single precision |
+//! | [`encoders`] | the checks of the joint encoders |
 //! | [`handle`] | a tick of the law as it shows at the handle and at the joints |
 //! | [`joint_space`] | the law in joint space, with M_n(q) and C_n(q, dq) |
 //! | [`arm_law`] | the complete law: from what is sensed at a tick to the torques |
@@ -30,6 +31,7 @@
 pub mod arm_law;
 pub mod choices;
 pub mod displacement;
+pub mod encoders;
 pub mod handle;
 pub mod joint_space;
 pub mod kinematics;

@@ -1,6 +1,7 @@
 //! What the law of the arm is built from: parameters of ArmController.fmu and of the C library, one row each.
 
 use crate::choices::{JOINT, SPACE, TORQUE_LIMITING};
+use crate::encoders::EncoderParameters;
 use crate::joint_space::{self, JointGains, JointParameters};
 use crate::kinematics::Kinematics;
 use crate::limits::{Limits, TorqueLimiting};
@@ -94,6 +95,9 @@ pub struct ArmParameters {
     /// Where the handle is.
     #[part]
     pub kinematics: Kinematics,
+    /// The joints' encoders.
+    #[part]
+    pub encoder: EncoderParameters,
     /// The hand's force sensor.
     #[part]
     pub ft: Sensor,

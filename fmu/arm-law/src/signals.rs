@@ -1,7 +1,7 @@
 //! What goes into a tick of the arm's law and what comes out of it: inputs and outputs of ArmController.fmu and of the C
 //! library, one row each.
 
-use crate::choices::{DIAGNOSTIC, FAULT, STATE, TARE_FAILURE, TARE_STATE};
+use crate::choices::{DIAGNOSTIC, ENCODER_FAULT, FAULT, STATE, TARE_FAILURE, TARE_STATE};
 use admittance::Real;
 use declaration::{Rows, Start};
 
@@ -52,7 +52,8 @@ pub struct ArmInputs {
     /// softly.
     #[input(101, boolean, start = 1)]
     pub ft_valid: i32,
-    /// Whether q can be trusted; if not there is no torque, at once; only with supervision.
+    /// The encoders' own word on q; if false there is no torque, at once: with supervision until the fault is
+    /// acknowledged, without it until q is valid again, where the law engages anew.
     #[input(102, boolean, start = 1)]
     pub encoder_valid: i32,
 }
@@ -107,7 +108,7 @@ pub struct ArmOutputs {
     #[output(17, boolean)]
     pub engaged: i32,
     /// Whether the joints' motion since the last tick exceeded dq_max or ddq_max, to which the passivity argument is
-    /// restricted.
+    /// restricted, or is not known because q is doubted.
     #[output(18, boolean)]
     pub outside_bounds: i32,
     /// Whether sigma_min lies below singularity.sigma_slow, so that the nominal is damped more.
@@ -153,7 +154,7 @@ pub struct ArmOutputs {
     /// Moment that the sensor shows when nothing acts on it, from the last tare that was done; sensor frame.
     #[output(75, name = "ft.bias_torque[i]", unit = NEWTON_METRE)]
     pub ft_bias_torque: [Real; 3],
-    /// State of the supervision; without it off, engaged or hold, as engage and hold say.
+    /// State of the supervision; without it off, engaged, hold or debt, as engage and hold say and the tank allows.
     #[output(103, items = STATE)]
     pub state: i32,
     /// Why the law does not simply run at this tick; always 0 without supervision.
@@ -177,6 +178,10 @@ pub struct ArmOutputs {
     /// Position error q_n - q of the joints, after the slip of passive_bounded; 0 in task space.
     #[output(136, unit = RADIAN)]
     pub e_q: [Real; 3],
+    /// What is wrong with the joint angles of this tick. A jump, or an angle over range, is doubted for encoder.samples
+    /// readings: the law goes on at its last velocity. Then there is no torque.
+    #[output(137, name = "encoder.fault", items = ENCODER_FAULT, from = ["q[i]", "encoder_valid", "encoder.range[i]"])]
+    pub encoder_fault: i32,
 }
 
 /// What the outputs that show the handle depend on after initialization.

@@ -2,6 +2,7 @@
 #![allow(non_snake_case, reason = "the paper's symbols")]
 
 mod axes;
+mod encoders;
 mod energy;
 mod force_sensor;
 mod inside;

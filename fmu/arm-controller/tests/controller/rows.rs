@@ -1,10 +1,11 @@
 //! The interface.
 
 use crate::ArmController;
-use admittance::Law;
 use admittance::law::OFFERED_LAW;
+use admittance::{Law, encoder};
 use arm_law::choices::{
-    DIAGNOSTIC, FAULT, FRAME, SOURCE, SPACE, STATE, TARE_FAILURE, TARE_STATE, TORQUE_LIMITING,
+    DEBT, DIAGNOSTIC, ENCODER_FAULT, FAULT, FRAME, SOURCE, SPACE, STATE, TARE_FAILURE, TARE_STATE,
+    TORQUE_LIMITING,
 };
 use arm_law::supervision::{Diagnostic, State};
 use arm_law::wrench::{Fault, TareFailure, TareState};
@@ -119,7 +120,12 @@ fn enumerations_have_the_numbers_and_names_that_the_model_knows() {
     let offered: Vec<_> = offered.map(|law| (law.number(), law.name())).collect();
     assert_eq!(items(OFFERED_LAW), offered);
     assert_eq!(offered.len(), Law::ALL.len() - 2); // without the two comparators, which have one axis
-    assert_eq!(items(STATE), State::ALL.map(|s| (s.number(), s.name())));
+    let mut states = State::ALL.map(|s| (s.number(), s.name())).to_vec();
+    states.push((DEBT, "debt")); // shown, no state of the table
+    assert_eq!(items(STATE), states);
+    let mut faults = vec![(0, "none")];
+    faults.extend(encoder::Fault::ALL.map(|f| (f.number(), f.name())));
+    assert_eq!(items(ENCODER_FAULT), faults);
     assert_eq!(
         items(DIAGNOSTIC),
         Diagnostic::ALL.map(|d| (d.number(), d.name()))

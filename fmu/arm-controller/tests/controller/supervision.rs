@@ -206,7 +206,6 @@ fn without_supervision_its_inputs_do_nothing() {
             c.inputs.acknowledge,
             c.inputs.emergency_stop,
         ) = (1, 1, 1);
-        c.inputs.encoder_valid = 0;
         (
             c.parameters.supervisor.hold_enter,
             c.parameters.supervisor.hold_leave,

@@ -11,7 +11,7 @@ pub enum Diagnostic {
     None = 0,
     /// Fault: the emergency stop is pressed.
     EmergencyStop = 1,
-    /// Fault: the joint angles are marked invalid, or not finite.
+    /// Fault: the joint angles have one: marked invalid, not finite, over range, a jump, stuck.
     EncoderInvalid = 2,
     /// Fault: the law's result is not finite.
     NotFinite = 3,
@@ -21,7 +21,7 @@ pub enum Diagnostic {
     FtInvalid = 5,
     /// Warning: motion beyond the stated bounds took more energy than the tank had; no torque until it is repaid.
     EnergyDebt = 6,
-    /// Warning: the motion since the last tick exceeds the bounds of the passivity argument.
+    /// Warning: the motion since the last tick exceeds the bounds of the passivity argument, or is not known.
     OutsideBounds = 7,
     /// Warning: the force or torque limits have been acting for longer than `saturation_time`.
     Saturated = 8,

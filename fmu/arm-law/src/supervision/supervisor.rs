@@ -26,7 +26,7 @@ pub struct Inputs {
     pub heartbeat: i32,
     /// Whether the human's force can be trusted: what conditions it has found no fault, and it is finite.
     pub ft_valid: bool,
-    /// Whether the joint angles can be trusted. The caller also makes it false when they are not finite.
+    /// Whether the joint angles can be trusted: what checks them has found no fault.
     pub encoder_valid: bool,
     /// |f_h|, N: whether the hand is at rest.
     pub force: Real,

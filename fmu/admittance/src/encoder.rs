@@ -1,0 +1,306 @@
+//! Whether a sensed position can be, and what the law is told where it cannot.
+//!
+//! The law differentiates positions. One sample that is wrong by half a radian is a speed of 500 rad/s to it, and the
+//! largest force that it may exert. Each check has a name:
+//!
+//! | fault | when |
+//! |---|---|
+//! | `not_finite` | a position is NaN or infinite; always on |
+//! | `over_range` | a position lies beyond ±range, where the robot cannot be |
+//! | `jump` | a position has moved by more than v_max T in a sample, faster than the robot can |
+//! | `stuck` | a position is bit for bit the same while its force has changed by the force that would move it |
+//! | `invalid` | the encoder's own word |
+//!
+//! In the loop a jump or a position over range is doubted first: the law goes on at the last believed velocity. It lasts
+//! `samples` samples until it is a fault. A single wrong sample so costs no force and causes none. Out of the loop a jump
+//! moves nothing: it is named and taken over.
+//!
+//! A fault lasts until `samples` samples in a row have followed one another; `not_finite` and `invalid` last as long as
+//! they are seen.
+
+use crate::real::abs;
+use crate::{Reach, Real};
+use nalgebra::SVector;
+
+/// What is wrong with the positions.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[repr(i32)]
+pub enum Fault {
+    /// A position is NaN or infinite.
+    NotFinite = 1,
+    /// A position lies where the robot cannot be.
+    OverRange = 2,
+    /// A position has moved faster than the robot can.
+    Jump = 3,
+    /// A position stays the same while its force changes.
+    Stuck = 4,
+    /// The encoder says so itself.
+    Invalid = 5,
+}
+
+impl Fault {
+    /// All, by number.
+    pub const ALL: [Self; 5] = [
+        Self::NotFinite,
+        Self::OverRange,
+        Self::Jump,
+        Self::Stuck,
+        Self::Invalid,
+    ];
+
+    /// The number by which the interface knows it; 0 stands for none.
+    pub const fn number(self) -> i32 {
+        self as i32
+    }
+
+    /// The name by which the interface knows it.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::NotFinite => "not_finite",
+            Self::OverRange => "over_range",
+            Self::Jump => "jump",
+            Self::Stuck => "stuck",
+            Self::Invalid => "invalid",
+        }
+    }
+
+    /// Whether it lasts until some samples have been sound.
+    const fn lasts(self) -> bool {
+        matches!(self, Self::OverRange | Self::Jump | Self::Stuck)
+    }
+}
+
+/// What is checked.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Checks<const N: usize> {
+    /// Largest absolute position, m or rad.
+    pub range: SVector<Real, N>,
+    /// Change of a force, N or N·m, with which its position must change, too; 0 = any may stand still.
+    pub stuck: SVector<Real, N>,
+    /// Samples in a row after which a doubt is a fault, and a fault is over; 0 = jumps are believed.
+    pub samples: u32,
+}
+
+/// A reading of all encoders.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Positions<const N: usize> {
+    /// Positions, m or rad.
+    pub q: SVector<f64, N>,
+    /// The encoders' own word.
+    pub valid: bool,
+    /// Ticks since the reading before this one; 0: it is the same one.
+    pub after: u32,
+}
+
+/// What the law is told of a reading.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Believed<const N: usize> {
+    /// Where the robot is, m or rad; `None` where nobody knows.
+    pub q: Option<SVector<f64, N>>,
+    /// Whether `q` goes on from earlier readings, in place of this one.
+    pub doubted: bool,
+    /// What is wrong with the reading.
+    pub fault: Option<Fault>,
+}
+
+/// The checks between two samples.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Encoders<const N: usize> {
+    checks: Checks<N>,
+    /// v_max T, m or rad, with the rounding that the reach allows for
+    step: SVector<Real, N>,
+    /// the last reading that was a number, m or rad
+    read: Option<SVector<f64, N>>,
+    /// the last position that the law was told
+    told: Option<SVector<f64, N>>,
+    /// how it moved per tick
+    per_tick: SVector<f64, N>,
+    /// doubtful readings in a row, or sound ones during a fault
+    count: u32,
+    fault: Option<Fault>,
+    /// why the last reading was doubted
+    doubt: Option<Fault>,
+    /// the force when the position last changed, N or N·m
+    moved_at: SVector<Real, N>,
+    /// which position is stuck
+    stuck: usize,
+}
+
+impl<const N: usize> Encoders<N> {
+    /// `checks` of a robot with this `reach` at a sample period of `T` (s); no reading so far.
+    #[allow(non_snake_case, reason = "the paper's symbol")]
+    pub fn new(checks: Checks<N>, reach: &Reach<N>, T: Real) -> Self {
+        Self {
+            checks,
+            step: reach.steps(T),
+            read: None,
+            told: None,
+            per_tick: SVector::zeros(),
+            count: 0,
+            fault: None,
+            doubt: None,
+            moved_at: SVector::zeros(),
+            stuck: 0,
+        }
+    }
+
+    /// What to believe of a `reading`, with the law in the loop or not, while it exerts `force` (N or N·m).
+    pub fn read(
+        &mut self,
+        reading: &Positions<N>,
+        in_loop: bool,
+        force: &SVector<Real, N>,
+    ) -> Believed<N> {
+        let Positions { q, valid, after } = *reading;
+        if !valid {
+            return self.lost(Fault::Invalid);
+        }
+        if !q.iter().all(|q| q.is_finite()) {
+            return self.lost(Fault::NotFinite);
+        }
+        if after == 0 && self.read == Some(q) {
+            return self.again();
+        }
+        let after = after.max(1);
+        let over = (0..N).any(|i| abs(q[i] as Real) > self.checks.range[i]);
+        let stuck = self.is_stuck(&q, force);
+        let found = if over {
+            Some(Fault::OverRange)
+        } else if stuck {
+            Some(Fault::Stuck)
+        } else {
+            None
+        };
+        if let Some(fault) = self.fault.filter(|fault| fault.lasts()) {
+            return self.recovering(fault, found, &q, after);
+        }
+        let jumped = self.jumps(self.told.as_ref(), &q, after);
+        self.read = Some(q);
+        match found.or(jumped.then_some(Fault::Jump)) {
+            None => {
+                self.per_tick = self
+                    .told
+                    .map_or_else(SVector::zeros, |told| (q - told) / f64::from(after));
+                self.believe(q)
+            }
+            Some(Fault::Jump) if !in_loop => Believed {
+                fault: Some(Fault::Jump),
+                ..self.believe_at_rest(q)
+            },
+            Some(fault) => self.doubt(fault, in_loop, after),
+        }
+    }
+
+    /// Nothing is known as long as this is seen.
+    #[cold]
+    fn lost(&mut self, fault: Fault) -> Believed<N> {
+        (self.read, self.told, self.count) = (None, None, 0);
+        self.failed(fault)
+    }
+
+    /// The same reading as at the last tick.
+    fn again(&self) -> Believed<N> {
+        Believed {
+            q: self.told,
+            doubted: self.doubt.is_some(),
+            fault: self.fault.or(self.doubt),
+        }
+    }
+
+    /// One more reading after a fault that lasts.
+    #[cold]
+    fn recovering(
+        &mut self,
+        fault: Fault,
+        found: Option<Fault>,
+        q: &SVector<f64, N>,
+        after: u32,
+    ) -> Believed<N> {
+        let stands = fault == Fault::Stuck
+            && self
+                .read
+                .is_some_and(|read| read[self.stuck] == q[self.stuck]);
+        let sound = found.is_none() && !stands && !self.jumps(self.read.as_ref(), q, after);
+        self.count = if sound { self.count + 1 } else { 0 };
+        self.read = Some(*q);
+        if self.count >= self.checks.samples.max(1) {
+            self.believe_at_rest(*q)
+        } else {
+            self.failed(found.unwrap_or(fault))
+        }
+    }
+
+    /// One more reading that cannot be.
+    #[cold]
+    fn doubt(&mut self, fault: Fault, in_loop: bool, after: u32) -> Believed<N> {
+        self.count += 1;
+        let lasting = fault == Fault::Stuck || !in_loop || self.count >= self.checks.samples;
+        match &mut self.told {
+            Some(told) if !lasting => {
+                *told += self.per_tick * f64::from(after);
+                self.doubt = Some(fault);
+                Believed {
+                    q: Some(*told),
+                    doubted: true,
+                    fault: Some(fault),
+                }
+            }
+            _ => {
+                (self.told, self.count) = (None, 0);
+                self.failed(fault)
+            }
+        }
+    }
+
+    fn failed(&mut self, fault: Fault) -> Believed<N> {
+        (self.fault, self.doubt) = (Some(fault), None);
+        Believed {
+            q: None,
+            doubted: false,
+            fault: self.fault,
+        }
+    }
+
+    fn believe(&mut self, q: SVector<f64, N>) -> Believed<N> {
+        (self.told, self.count) = (Some(q), 0);
+        (self.fault, self.doubt) = (None, None);
+        Believed {
+            q: Some(q),
+            doubted: false,
+            fault: None,
+        }
+    }
+
+    fn believe_at_rest(&mut self, q: SVector<f64, N>) -> Believed<N> {
+        self.per_tick = SVector::zeros();
+        self.believe(q)
+    }
+
+    /// Whether the robot cannot have come from `from` to `q` in this many ticks.
+    fn jumps(&self, from: Option<&SVector<f64, N>>, q: &SVector<f64, N>, after: u32) -> bool {
+        let ticks = after as Real;
+        self.checks.samples > 0
+            && from.is_some_and(|from| {
+                (0..N).any(|i| abs((q[i] - from[i]) as Real) > ticks * self.step[i])
+            })
+    }
+
+    /// Whether a position stands still while its force changes.
+    fn is_stuck(&mut self, q: &SVector<f64, N>, force: &SVector<Real, N>) -> bool {
+        let mut found = false;
+        for i in 0..N {
+            if self.checks.stuck[i] <= 0.0 {
+                continue;
+            }
+            if self.read.is_none_or(|read| read[i] != q[i]) {
+                self.moved_at[i] = force[i];
+            } else if abs(force[i] - self.moved_at[i]) >= self.checks.stuck[i] {
+                (found, self.stuck) = (true, i);
+            }
+        }
+        found
+    }
+}
