@@ -138,6 +138,14 @@ impl<const N: usize> Admittance<N> {
         })
     }
 
+    /// One tick out of the loop where the positions are not known: no force. It shows the positions `last` (m).
+    pub fn abandon(&mut self, last: &SVector<Real, N>) -> Tick<N> {
+        Tick {
+            outside_bounds: self.sampled.abandon(),
+            ..Tick::at_rest(last)
+        }
+    }
+
     /// One tick out of the loop at positions `q` (m): no force, q_n = q, v_n = 0. The energy that was stored is given up;
     /// the next [`step`](Self::step) engages anew.
     pub fn rest(&mut self, q: &SVector<Real, N>) -> Tick<N> {

@@ -20,6 +20,8 @@
 
 use crate::real::abs;
 use crate::{Reach, Real};
+use core::fmt::{Display, Formatter};
+use declaration::{Enumeration, Item};
 use nalgebra::SVector;
 
 /// What is wrong with the positions.
@@ -71,6 +73,50 @@ impl Fault {
     }
 }
 
+const fn item(fault: Fault, about: &'static str) -> Item {
+    let (value, name) = (fault.number(), fault.name());
+    Item { value, name, about }
+}
+
+/// The type of `encoder.fault`.
+pub const FAULT: Enumeration = Enumeration {
+    name: "EncoderFault",
+    about: "What is wrong with the sensed positions",
+    items: &[
+        Item {
+            value: 0,
+            name: "none",
+            about: "nothing",
+        },
+        item(Fault::NotFinite, "one is NaN or infinite"),
+        item(Fault::OverRange, "one lies beyond encoder.range"),
+        item(
+            Fault::Jump,
+            "one has moved faster than the robot can since the last reading",
+        ),
+        item(
+            Fault::Stuck,
+            "one has stayed the same while its force changed by as much as should move it",
+        ),
+        item(Fault::Invalid, "encoder_valid is false"),
+    ],
+};
+
+/// The item of `encoder.fault` with the number `fault`, for a message.
+pub fn message(fault: i32) -> impl Display {
+    let found = FAULT.items.iter().find(|item| item.value == fault);
+    Message(found.unwrap_or(&FAULT.items[0]))
+}
+
+struct Message(&'static Item);
+
+impl Display for Message {
+    fn fmt(&self, f: &mut Formatter<'_>) -> core::fmt::Result {
+        let Item { value, name, about } = self.0;
+        write!(f, "encoder.fault = {value} ({name}): {about}")
+    }
+}
+
 /// What is checked.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -92,6 +138,33 @@ pub struct Positions<const N: usize> {
     pub valid: bool,
     /// Ticks since the reading before this one; 0: it is the same one.
     pub after: u32,
+}
+
+/// How old the reading of an importer is, whose step may have several ticks or none.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Age {
+    ticks: u32,
+}
+
+impl Default for Age {
+    /// Before the first tick.
+    fn default() -> Self {
+        Self { ticks: 1 }
+    }
+}
+
+impl Age {
+    /// At a tick with a `fresh` reading: ticks since the reading before it. At one that sees the last reading again: 0.
+    pub const fn at(&mut self, fresh: bool) -> u32 {
+        let after = if fresh { self.ticks } else { 0 };
+        self.ticks = if fresh {
+            1
+        } else {
+            self.ticks.saturating_add(1)
+        };
+        after
+    }
 }
 
 /// What the law is told of a reading.
@@ -219,10 +292,8 @@ impl<const N: usize> Encoders<N> {
         q: &SVector<f64, N>,
         after: u32,
     ) -> Believed<N> {
-        let stands = fault == Fault::Stuck
-            && self
-                .read
-                .is_some_and(|read| read[self.stuck] == q[self.stuck]);
+        let stuck = |read: SVector<f64, N>| (0..N).any(|i| i == self.stuck && read[i] == q[i]);
+        let stands = fault == Fault::Stuck && self.read.is_some_and(stuck);
         let sound = found.is_none() && !stands && !self.jumps(self.read.as_ref(), q, after);
         self.count = if sound { self.count + 1 } else { 0 };
         self.read = Some(*q);

@@ -1,7 +1,7 @@
 //! The checks of sensed positions, one axis: 1 m/s at 10 ms is 10 mm a sample.
 
 use admittance::Reach;
-use admittance::encoder::{Believed, Checks, Encoders, Fault, Positions};
+use admittance::encoder::{Age, Believed, Checks, Encoders, Fault, Positions};
 use nalgebra::Vector1;
 
 const T: f64 = 0.01;
@@ -205,4 +205,11 @@ fn every_fault_has_a_number_and_a_name_of_its_own() {
     let mut names = Fault::ALL.map(Fault::name);
     names.sort_unstable();
     assert!(names.windows(2).all(|pair| pair[0] != pair[1]));
+}
+
+#[test]
+fn the_age_of_a_reading_counts_the_ticks_that_saw_the_one_before() {
+    let mut age = Age::default();
+    let ages = [true, true, false, false, true, true].map(|fresh| age.at(fresh));
+    assert_eq!(ages, [1, 1, 0, 0, 3, 1]);
 }

@@ -1,8 +1,8 @@
 //! What a step does.
 
 use crate::ArmController;
+use admittance::encoder::{self, Age};
 use arm_law::arm_law::NotFinite;
-use arm_law::choices::ENCODER_FAULT;
 use arm_law::{ArmInputs, ArmLaw};
 use export::{Log, Model, Refusal, Step, Ticks};
 
@@ -17,7 +17,7 @@ impl Model for ArmController {
             .map_err(|NotFinite| self.overflow("the start"))?;
         self.arm_law = Some(arm_law);
         self.ticks = Ticks::default();
-        self.unread = 1;
+        self.age = Age::default();
         self.tick = -1;
         Ok(())
     }
@@ -41,18 +41,15 @@ impl Model for ArmController {
         let first = ticks.start;
         for k in ticks {
             // The angles were read for the first tick of the step; the others see the same ones.
-            let after = if k == first { self.unread } else { 0 };
-            self.unread = if k == first {
-                1
-            } else {
-                self.unread.saturating_add(1)
-            };
+            let after = self.age.at(k == first);
             let before = self.outputs.encoder_fault;
             if let Err(NotFinite) = arm_law.tick_after(after, &self.inputs, &mut self.outputs) {
                 return Err(self.overflow(&format!("tick {k}")));
             }
-            if ![0, before].contains(&self.outputs.encoder_fault) {
-                warn_of_encoders(self.outputs.encoder_fault, &self.inputs.q, log);
+            let fault = self.outputs.encoder_fault;
+            if ![0, before].contains(&fault) {
+                let q = self.inputs.q;
+                log.warning(format_args!("{}; q = {q:?} rad", encoder::message(fault)));
             }
             self.tick = i32::try_from(k).unwrap_or(i32::MAX);
         }
@@ -77,17 +74,5 @@ impl ArmController {
         Refusal(format!(
             "{when}: the law's result is not finite with q = {q:?} rad and f_h = {f_h:?} N"
         ))
-    }
-}
-
-/// Says what is wrong with the joint angles `q` (rad): the item `fault` of `encoder.fault`.
-#[cold]
-fn warn_of_encoders(fault: i32, q: &[f64; 3], log: &mut Log<'_>) {
-    let items = ENCODER_FAULT.items.iter();
-    for item in items.filter(|item| item.value == fault) {
-        let (name, about) = (item.name, item.about);
-        log.warning(format_args!(
-            "encoder.fault = {fault} ({name}): {about}; q = {q:?} rad"
-        ));
     }
 }

@@ -1,5 +1,6 @@
 //! The variables, one row each: those of the arm's law.
 
+use admittance::encoder::Age;
 use arm_law::{ArmInputs, ArmLaw, ArmOutputs, ArmParameters};
 use declaration::{Declare, Description, Experiment, Rows, Start, Stepping};
 use export::Ticks;
@@ -27,8 +28,7 @@ pub struct ArmController {
     pub parameters: ArmParameters,
 
     pub(crate) ticks: Ticks,
-    /// ticks since the first one of the last step: how old the joint angles are when they are next read
-    pub(crate) unread: u32,
+    pub(crate) age: Age,
     pub(crate) arm_law: Option<ArmLaw>,
 }
 

@@ -1,8 +1,9 @@
 //! Choices, states and faults: the items of the variables that hold one of a list.
 
 use crate::supervision::{Diagnostic, State};
-use admittance::encoder::Fault as Encoder;
 use declaration::{Enumeration, Item};
+
+pub use admittance::encoder::FAULT as ENCODER_FAULT;
 
 /// `space`: the nominal is a mass at the handle.
 pub const TASK: i32 = 1;
@@ -88,30 +89,6 @@ pub const FAULT: Enumeration = Enumeration {
         ),
     ],
 };
-
-/// The type of `encoder.fault`: [`Encoder`] by number.
-pub const ENCODER_FAULT: Enumeration = Enumeration {
-    name: "EncoderFault",
-    about: "What is wrong with the joint angles",
-    items: &[
-        item(0, "none", "nothing"),
-        encoder(Encoder::NotFinite, "an angle is NaN or infinite"),
-        encoder(Encoder::OverRange, "an angle lies beyond encoder.range"),
-        encoder(
-            Encoder::Jump,
-            "an angle has moved faster than dq_max since the last reading",
-        ),
-        encoder(
-            Encoder::Stuck,
-            "an angle has not changed while its torque changed by encoder.stuck_torque",
-        ),
-        encoder(Encoder::Invalid, "encoder_valid is false"),
-    ],
-};
-
-const fn encoder(fault: Encoder, about: &'static str) -> Item {
-    item(fault.number(), fault.name(), about)
-}
 
 /// The type of `ft.tare_state`.
 pub const TARE_STATE: Enumeration = Enumeration {

@@ -94,6 +94,18 @@ typedef struct exo_arm_kinematics {
   exo_real handle_z; // m
 } exo_arm_kinematics;
 
+// What the joints' positions must keep to. The arm's joints turn less than once.
+typedef struct EncoderParameters {
+  // Largest absolute joint angle: a reading beyond it cannot be.
+  exo_real range[3];
+  // Change of a joint's torque in which its angle must change, too, in its last bit at least; 0 = off. Above what
+  // friction holds.
+  exo_real stuck_torque[3];
+  // Readings in a row after which a jump beyond dq_max or encoder.range is a fault, and after which a fault is over; 0 =
+  // jumps are believed.
+  int32_t samples;
+} EncoderParameters;
+
 // Everything beyond the sensor that the hand does not carry: handle, adapter, half of the sensor. At the start there is none,
 // on an arm that stands upright.
 typedef struct exo_arm_tool {
@@ -322,6 +334,8 @@ typedef struct exo_arm_parameters {
   exo_real tau_rate_max[3]; // N.m/s
   // Where the handle is.
   struct exo_arm_kinematics kinematics;
+  // The joints' encoders.
+  struct EncoderParameters encoder;
   // The hand's force sensor.
   struct exo_arm_force_sensor ft;
   // Slowing before a singularity.
@@ -371,7 +385,8 @@ typedef struct exo_arm_inputs {
   // The sensor's own word on the force; if false the law sees no force (ft.fault) and, with supervision, stops
   // softly.
   int32_t ft_valid; // 0 or 1
-  // Whether q can be trusted; if not there is no torque, at once; only with supervision.
+  // The encoders' own word on q; if false there is no torque, at once: with supervision until the fault is
+  // acknowledged, without it until q is valid again, where the law engages anew.
   int32_t encoder_valid; // 0 or 1
 } exo_arm_inputs;
 
@@ -424,7 +439,7 @@ typedef struct exo_arm_outputs {
   // Whether the controller was in the loop at this tick.
   int32_t engaged; // 0 or 1
   // Whether the joints' motion since the last tick exceeded dq_max or ddq_max, to which the passivity argument is
-  // restricted.
+  // restricted, or is not known because q is doubted.
   int32_t outside_bounds; // 0 or 1
   // Whether sigma_min lies below singularity.sigma_slow, so that the nominal is damped more.
   int32_t slowed; // 0 or 1
@@ -455,8 +470,8 @@ typedef struct exo_arm_outputs {
   exo_real ft_bias_force[3]; // N
   // Moment that the sensor shows when nothing acts on it, from the last tare that was done; sensor frame.
   exo_real ft_bias_torque[3]; // N.m
-  // State of the supervision; without it off, engaged or hold, as engage and hold say.
-  int32_t state; // 0 off, 1 init, 2 ready, 3 engaged, 4 hold, 5 soft_stop, 6 fault
+  // State of the supervision; without it off, engaged, hold or debt, as engage and hold say and the tank allows.
+  int32_t state; // 0 off, 1 init, 2 ready, 3 engaged, 4 hold, 5 soft_stop, 6 fault, 7 debt
   // Why the law does not simply run at this tick; always 0 without supervision.
   int32_t diagnostic; // 0 none, 1 emergency_stop, 2 encoder_invalid, 3 not_finite, 4 heartbeat_lost, 5 ft_invalid, 6 energy_debt, 7 outside_bounds, 8 saturated, 9 not_acknowledged, 10 not_enabled, 11 preparing, 12 not_engaged, 13 engage_stuck
   // The first fault, kept until it is acknowledged; 0 if there is none.
@@ -471,6 +486,9 @@ typedef struct exo_arm_outputs {
   exo_real dq_n[3]; // rad/s
   // Position error q_n - q of the joints, after the slip of passive_bounded; 0 in task space.
   exo_real e_q[3]; // rad
+  // What is wrong with the joint angles of this tick. A jump, or an angle over range, is doubted for encoder.samples
+  // readings: the law goes on at its last velocity. Then there is no torque.
+  int32_t encoder_fault;
 } exo_arm_outputs;
 
 // One variable of a struct.
@@ -532,6 +550,13 @@ typedef struct exo_axis_parameters {
   exo_real q_n_max; // m
   // Largest rate of change of tau_a while the controller is in the loop; 0 = no limit.
   exo_real tau_rate_max; // N/s
+  // Largest absolute position: a reading beyond it cannot be.
+  exo_real encoder_range; // m
+  // Change of tau_a in which q must change, too, in its last bit at least; 0 = off. Above what friction holds.
+  exo_real encoder_stuck_force; // N
+  // Readings in a row after which a jump beyond v_max or encoder.range is a fault, and after which a fault is over; 0 =
+  // jumps are believed.
+  int32_t encoder_samples;
 } exo_axis_parameters;
 
 // What is sensed and asked for at a tick.
@@ -546,6 +571,9 @@ typedef struct exo_axis_inputs {
   // Whether the nominal stays where it is: the coupling then carries any load within tau_max without drift; the laws
   // 1 to 4 in torque form only.
   int32_t hold; // 0 or 1
+  // The encoder's own word on q; if false there is no force, at once, until q is valid again, where the law engages
+  // anew; the laws 1 to 4 in torque form only.
+  int32_t encoder_valid; // 0 or 1
 } exo_axis_inputs;
 
 // Memory of one axis's law. Its content is the library's; it may be copied as bytes, to keep and restore a state.
@@ -580,13 +608,17 @@ typedef struct exo_axis_outputs {
   int32_t saturated; // 0 or 1
   // Whether hold, dq_n_max or the position box kept the nominal back at this tick.
   int32_t held; // 0 or 1
-  // Whether the motion since the last tick exceeded v_max or a_max, to which the passivity argument is restricted.
+  // Whether the motion since the last tick exceeded v_max or a_max, to which the passivity argument is restricted, or is
+  // not known because q is doubted.
   int32_t outside_bounds; // 0 or 1
   // Whether the controller was in the loop at this tick.
   int32_t engaged; // 0 or 1
   // Whether the tank is below 0: a motion beyond v_max and a_max cost more than it held; no force until it is
   // repaid.
   int32_t debt; // 0 or 1
+  // What is wrong with q at this tick. A jump, or a position over range, is doubted for encoder.samples readings: the
+  // law goes on at its last velocity. Then there is no force. 0 but for the laws 1 to 4 in torque form.
+  int32_t encoder_fault; // 0 none, 1 not_finite, 2 over_range, 3 rate, 4 stuck, 5 dropout
 } exo_axis_outputs;
 
 #ifdef __cplusplus

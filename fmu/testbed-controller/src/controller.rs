@@ -77,14 +77,15 @@ impl Controller {
         }
     }
 
-    /// One tick, in the loop or out of it, with the mean force `tau_m` (N) of the drive over the sample that ended; what came of
-    /// it stands in `outputs`.
+    /// One tick, in the loop or out of it, with the mean force `tau_m` (N) of the drive over the sample that ended, and with a
+    /// position that was read `after` ticks since the one before; what came of it stands in `outputs`.
     ///
     /// # Errors
     /// [`NotFinite`].
     pub fn tick(
         &mut self,
         inputs: &AxisInputs,
+        after: u32,
         tau_m: f64,
         outputs: &mut AxisOutputs,
     ) -> Result<Command, NotFinite> {
@@ -93,7 +94,7 @@ impl Controller {
         } = *inputs;
         let engage = engage != 0;
         match self {
-            Self::Law(law) => law.tick(inputs, outputs)?,
+            Self::Law(law) => law.tick_after(after, inputs, outputs)?,
             Self::Servo(servo) => {
                 let tick = if engage {
                     servo.step(q, tau_h, tau_m)

@@ -4,6 +4,7 @@ use crate::TestbedController;
 use crate::controller::Controller;
 use crate::rows::TORQUE;
 use admittance::Law;
+use admittance::encoder::{self, Age};
 use admittance::one_axis::{AxisInputs, NotFinite};
 use admittance::parameters::in_range;
 use export::{Log, Model, Refusal, Step, Ticks};
@@ -18,11 +19,12 @@ impl Model for TestbedController {
         // What is shown is a controller at rest; what begins to run knows no motion yet.
         let engage = std::mem::replace(&mut self.inputs.engage, 0);
         self.controller = Some(controller);
-        let shown = self.tick();
+        let shown = self.tick(1);
         self.inputs.engage = engage;
         shown.map_err(|NotFinite| self.overflow("the start"))?;
         self.controller = Some(controller);
         self.ticks = Ticks::default();
+        self.age = Age::default();
         self.tick = -1;
         Ok(())
     }
@@ -38,13 +40,23 @@ impl Model for TestbedController {
         step.at_most("T", self.parameters.T)
     }
 
-    fn step(&mut self, step: Step, _log: &mut Log<'_>) -> Result<(), Refusal> {
+    fn step(&mut self, step: Step, log: &mut Log<'_>) -> Result<(), Refusal> {
         if self.controller.is_none() {
             return Err(Refusal::new("a step before initialization"));
         }
-        for k in self.ticks.within(&step, self.parameters.T) {
-            self.tick()
+        let ticks = self.ticks.within(&step, self.parameters.T);
+        let first = ticks.start;
+        for k in ticks {
+            // The position was read for the first tick of the step; the others see the same one.
+            let after = self.age.at(k == first);
+            let before = self.outputs.encoder_fault;
+            self.tick(after)
                 .map_err(|NotFinite| self.overflow(&format!("tick {k}")))?;
+            let fault = self.outputs.encoder_fault;
+            if ![0, before].contains(&fault) {
+                let q = self.inputs.q;
+                log.warning(format_args!("{}; q = {q:?} m", encoder::message(fault)));
+            }
             self.tick = i32::try_from(k).unwrap_or(i32::MAX);
         }
         Ok(())
@@ -52,9 +64,10 @@ impl Model for TestbedController {
 }
 
 impl TestbedController {
-    fn tick(&mut self) -> Result<(), NotFinite> {
+    fn tick(&mut self, after: u32) -> Result<(), NotFinite> {
         if let Some(controller) = &mut self.controller {
-            let command = controller.tick(&self.inputs, self.tau_a_measured, &mut self.outputs)?;
+            let command =
+                controller.tick(&self.inputs, after, self.tau_a_measured, &mut self.outputs)?;
             (self.q_d, self.dq_d) = (command.q_d, command.dq_d);
         }
         Ok(())

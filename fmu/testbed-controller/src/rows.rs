@@ -1,6 +1,7 @@
 //! The variables, one row each: those of the law of one axis, and what the testbed has besides.
 
 use crate::controller::Controller;
+use admittance::encoder::Age;
 use admittance::one_axis::{AxisInputs, AxisOutputs, AxisParameters};
 use declaration::{Declare, Description, Enumeration, Experiment, Item, Rows, Start, Stepping};
 use export::Ticks;
@@ -68,6 +69,7 @@ pub struct TestbedController {
     pub comparator: Comparator,
 
     pub(crate) ticks: Ticks,
+    pub(crate) age: Age,
     pub(crate) controller: Option<Controller>,
 }
 

@@ -8,6 +8,7 @@ pub mod signals;
 pub use parameters::{AxisParameters, Checked};
 pub use signals::{AxisInputs, AxisOutputs};
 
+use crate::encoder::{Believed, Encoders, Fault, Positions};
 use crate::origin::{Move, Origin};
 use crate::tick::{Refused, Tick};
 use crate::{Admittance, Bounds, ParameterError, Real, Request};
@@ -24,6 +25,11 @@ pub struct OneAxis {
     law: Admittance<1>,
     bounds: Bounds,
     counting: Origin<1>,
+    encoder: Encoders<1>,
+    /// the last position that was believed, m, as it is counted
+    q: Vector1<Real>,
+    /// the last force, N
+    f: Vector1<Real>,
 }
 
 impl OneAxis {
@@ -38,6 +44,7 @@ impl OneAxis {
             bounds,
             reach,
             f_rate,
+            encoder,
         } = parameters.checked()?;
         let mut law = Admittance::new(settings, [gains])?
             .reaching(reach)?
@@ -47,6 +54,9 @@ impl OneAxis {
             law,
             bounds,
             counting: Origin::default(),
+            encoder,
+            q: Vector1::zeros(),
+            f: Vector1::zeros(),
         })
     }
 
@@ -59,7 +69,7 @@ impl OneAxis {
         self.law.tune([parameters.tuned()?])
     }
 
-    /// One tick, whose results stand in `outputs`.
+    /// One tick with a position that was read for it; its results stand in `outputs`.
     ///
     /// # Errors
     /// [`NotFinite`]; law and outputs stay as they were before the tick.
@@ -68,52 +78,93 @@ impl OneAxis {
         inputs: &AxisInputs,
         outputs: &mut AxisOutputs,
     ) -> Result<(), NotFinite> {
-        let engage = inputs.engage != 0;
-        if !self.counting.would_move(&Vector1::new(inputs.q), engage) {
-            return self.tick_here(inputs, outputs);
-        }
-        // Seldom, and in single precision only: a tick that is refused leaves the origin where it was, too.
-        let mut law = *self;
-        law.tick_here(inputs, outputs)?;
-        *self = law;
-        Ok(())
+        self.tick_after(1, inputs, outputs)
     }
 
-    fn tick_here(
+    /// The same with a position that was read `after` ticks since the reading before it; 0: it is that of the last tick. An
+    /// importer whose communication step is not T reads it so.
+    ///
+    /// # Errors
+    /// Those of [`tick`](Self::tick).
+    pub fn tick_after(
         &mut self,
+        after: u32,
         inputs: &AxisInputs,
         outputs: &mut AxisOutputs,
     ) -> Result<(), NotFinite> {
+        let mut encoder = self.encoder;
+        let reading = Positions {
+            q: Vector1::new(inputs.q),
+            valid: inputs.encoder_valid != 0,
+            after,
+        };
+        let believed = encoder.read(&reading, self.counting.is_engaged(), &self.f);
         let engage = inputs.engage != 0;
-        let q = self.counted(inputs.q, engage)?;
+        let moves = believed
+            .q
+            .is_some_and(|q| self.counting.would_move(&q, engage));
+        if moves {
+            // Seldom, and in single precision only: a tick that is refused leaves the origin where it was, too.
+            let mut law = *self;
+            law.tick_believing(&believed, inputs, outputs)?;
+            *self = law;
+        } else {
+            self.tick_believing(&believed, inputs, outputs)?;
+        }
+        self.encoder = encoder;
+        Ok(())
+    }
+
+    fn tick_believing(
+        &mut self,
+        believed: &Believed<1>,
+        inputs: &AxisInputs,
+        outputs: &mut AxisOutputs,
+    ) -> Result<(), NotFinite> {
+        let engage = inputs.engage != 0 && believed.q.is_some();
+        let q = believed.q.map(|q| self.counted(q.x, engage)).transpose()?;
         let place = self.counting.place().map(|q_0| q_0.x as Real);
         let q_n = |tick: &Tick<1>| place.map_or(tick.q_n.x, |q_0| q_0 + tick.q_n.x);
         let finite = |tick: &Tick<1>, G: Real| {
             let numbers = [tick.f_demand.x, q_n(tick), tick.dq_n.x, G];
             numbers.iter().all(|number| number.is_finite())
         };
-        if engage {
-            let request = Request {
-                hold: inputs.hold != 0,
-                ..Request::default()
-            };
-            let accept = |tick: &Tick<1>, G| {
-                let accepted = finite(tick, G);
-                if accepted {
-                    show(tick, q_n(tick), outputs);
-                }
-                accepted
-            };
-            let tau_h = Vector1::new(inputs.tau_h);
-            self.law
-                .tick_if(&q, &tau_h, &request, accept)
-                .map_err(|Refused| NotFinite)?;
-        } else {
-            let at_rest = Tick::at_rest(&q);
-            let accept = |G| finite(&at_rest, G);
-            let tick = self.law.rest_if(&q, accept).map_err(|Refused| NotFinite)?;
-            show(&tick, q_n(&tick), outputs);
+        match q {
+            None if believed.fault == Some(Fault::NotFinite) => return Err(NotFinite),
+            None => {
+                let tick = self.law.abandon(&self.q);
+                show(&tick, q_n(&tick), outputs);
+            }
+            Some(q) if engage => {
+                let request = Request {
+                    hold: inputs.hold != 0,
+                    ..Request::default()
+                };
+                let accept = |tick: &Tick<1>, G| {
+                    let accepted = finite(tick, G);
+                    if accepted {
+                        show(tick, q_n(tick), outputs);
+                    }
+                    accepted
+                };
+                let tau_h = Vector1::new(inputs.tau_h);
+                self.law
+                    .tick_if(&q, &tau_h, &request, accept)
+                    .map_err(|Refused| NotFinite)?;
+            }
+            Some(q) => {
+                let at_rest = Tick::at_rest(&q);
+                let accept = |G| finite(&at_rest, G);
+                let tick = self.law.rest_if(&q, accept).map_err(|Refused| NotFinite)?;
+                show(&tick, q_n(&tick), outputs);
+            }
         }
+        if believed.doubted {
+            outputs.outside_bounds = 1;
+        }
+        outputs.encoder_fault = believed.fault.map_or(0, Fault::number);
+        self.q = q.unwrap_or(self.q);
+        self.f.x = outputs.tau_a;
         self.counting.ticked(engage);
         let ledger = self.law.ledger();
         outputs.H = ledger.H();
@@ -136,6 +187,7 @@ impl OneAxis {
             self.law
                 .count_from(&by, [relative])
                 .map_err(|_| NotFinite)?;
+            self.q -= by;
         }
         Ok(self.counting.counted(&q))
     }

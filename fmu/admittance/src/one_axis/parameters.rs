@@ -2,6 +2,7 @@
 
 use crate::advice::{Advice, advise};
 use crate::bounds::{boxed, or_none};
+use crate::encoder::{Checks, Encoders};
 use crate::law::LAW;
 use crate::parameters::{in_range, tunable_in_range};
 use crate::{Bounds, Gains, Law, ParameterError, Reach, Real, Settings};
@@ -74,6 +75,16 @@ pub struct AxisParameters {
     /// Largest rate of change of tau_a while the controller is in the loop; 0 = no limit.
     #[parameter(46, unit = NEWTON_PER_SECOND, range = NOT_NEGATIVE)]
     pub tau_rate_max: Real,
+    /// Largest absolute position: a reading beyond it cannot be.
+    #[parameter(49, name = "encoder.range", unit = METRE, range = POSITIVE, start = 100.0)]
+    pub encoder_range: Real,
+    /// Change of tau_a in which q must change, too, in its last bit at least; 0 = off. Above what friction holds.
+    #[parameter(50, name = "encoder.stuck_force", unit = NEWTON, range = NOT_NEGATIVE)]
+    pub encoder_stuck_force: Real,
+    /// Readings in a row after which a jump beyond v_max or encoder.range is a fault, and after which a fault is over; 0 =
+    /// jumps are believed.
+    #[parameter(51, name = "encoder.samples", integers = 0.., start = 5)]
+    pub encoder_samples: i32,
 }
 
 /// The law's parts, made of parameters that have been checked.
@@ -89,6 +100,8 @@ pub struct Checked {
     pub reach: Reach<1>,
     /// Largest rate of change of the force, N/s, infinite for no limit.
     pub f_rate: Real,
+    /// The checks of the position.
+    pub encoder: Encoders<1>,
 }
 
 impl AxisParameters {
@@ -105,15 +118,22 @@ impl AxisParameters {
             &[self.q_n_max],
             &[self.dq_n_max],
         )?;
+        let reach = Reach {
+            v_max: Vector1::new(self.v_max),
+            a_max: Vector1::new(self.a_max),
+        };
+        let checks = Checks {
+            range: Vector1::new(self.encoder_range),
+            stuck: Vector1::new(self.encoder_stuck_force),
+            samples: self.encoder_samples.unsigned_abs(),
+        };
         Ok(Checked {
             settings: self.settings()?,
             gains: self.gains(),
             bounds,
-            reach: Reach {
-                v_max: Vector1::new(self.v_max),
-                a_max: Vector1::new(self.a_max),
-            },
+            reach,
             f_rate: or_none(self.tau_rate_max),
+            encoder: Encoders::new(checks, &reach, self.T),
         })
     }
 

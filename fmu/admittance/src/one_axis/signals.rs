@@ -2,6 +2,7 @@
 //! C library, one row each.
 
 use crate::Real;
+use crate::encoder::FAULT;
 use declaration::{Rows, Start};
 
 /// What is sensed and asked for at a tick.
@@ -24,6 +25,10 @@ pub struct AxisInputs {
     /// 1 to 4 in torque form only.
     #[input(37, boolean)]
     pub hold: i32,
+    /// The encoder's own word on q; if false there is no force, at once, until q is valid again, where the law engages
+    /// anew; the laws 1 to 4 in torque form only.
+    #[input(47, boolean, start = 1)]
+    pub encoder_valid: i32,
 }
 
 /// What came of a tick; every value is the one at t_k.
@@ -69,7 +74,8 @@ pub struct AxisOutputs {
     /// Whether hold, dq_n_max or the position box kept the nominal back at this tick.
     #[output(38, boolean)]
     pub held: i32,
-    /// Whether the motion since the last tick exceeded v_max or a_max, to which the passivity argument is restricted.
+    /// Whether the motion since the last tick exceeded v_max or a_max, to which the passivity argument is restricted, or is
+    /// not known because q is doubted.
     #[output(15, boolean)]
     pub outside_bounds: i32,
     /// Whether the controller was in the loop at this tick.
@@ -79,4 +85,8 @@ pub struct AxisOutputs {
     /// repaid.
     #[output(40, name = "energy.debt", boolean)]
     pub debt: i32,
+    /// What is wrong with q at this tick. A jump, or a position over range, is doubted for encoder.samples readings: the
+    /// law goes on at its last velocity. Then there is no force. 0 but for the laws 1 to 4 in torque form.
+    #[output(48, name = "encoder.fault", items = FAULT, from = ["q", "encoder_valid", "encoder.range"])]
+    pub encoder_fault: i32,
 }
