@@ -132,7 +132,7 @@ impl Axis {
         }
     }
 
-    /// Energy stored at this tick, J. Not finite for alpha = 0.
+    /// Energy stored at this tick, J. 0 for alpha = 0.
     #[inline]
     pub fn stored(&self, sensed: &Sensed) -> Real {
         self.rule.stored(sensed.e, sensed.v_n)
@@ -143,7 +143,7 @@ impl Axis {
         self.rule.spring.energy(sensed.e)
     }
 
-    /// The nominal mass's part of it, J. Not finite for alpha = 0.
+    /// The nominal mass's part of it, J. 0 for alpha = 0.
     pub fn mass(&self, sensed: &Sensed) -> Real {
         self.rule.mass.energy(sensed.v_n)
     }
@@ -199,7 +199,7 @@ impl Axis {
         self.rule.taken(&proposal.sample, f, driven.v_m)
     }
 
-    /// Energy (K/alpha) f_h v_m T that the human's port brings in the sample that begins, J. Not finite for alpha = 0.
+    /// Energy (K/alpha) f_h v_m T that the human's port brings in the sample that begins, J. 0 for alpha = 0.
     #[inline]
     pub fn supplied(&self, proposal: &Proposal, driven: Driven) -> Real {
         self.rule.supplied(&proposal.sample, driven.v_m)

@@ -63,13 +63,13 @@ pub struct Midpoint {
 impl Rule {
     /// That of `gains` under `settings`.
     pub fn new(settings: &Settings, gains: &Gains) -> Self {
-        let Settings { law, alpha, T, .. } = *settings;
+        let Settings { law, T, .. } = *settings;
         let Gains { M_n, K, K_P, .. } = *gains;
         let lead = 1.0 + K_P * T / 2.0;
         Self {
             gains: *gains,
             spring: Spring::new(law, gains),
-            mass: Mass::new(gains, alpha),
+            mass: Mass::new(gains, settings),
             T,
             alpha: settings.reaction(),
             M_2: 2.0 * M_n,
@@ -77,7 +77,7 @@ impl Rule {
             KPT: K_P * T,
             lead,
             c: settings.reaction() * lead,
-            port: K / alpha,
+            port: settings.over_alpha(K),
         }
     }
 
@@ -135,13 +135,13 @@ impl Rule {
         (y_s - self.gains.K_P * e) / self.lead + dq
     }
 
-    /// Energy stored in nominal mass and spring, J. Not finite for alpha = 0.
+    /// Energy stored in nominal mass and spring, J. 0 for alpha = 0.
     #[inline]
     pub fn stored(&self, e: Real, v_n: Real) -> Real {
         self.mass.energy(v_n) + self.spring.energy(e)
     }
 
-    /// Energy (K/alpha) f_h v_m T that the human's port brings in a sample, J. Not finite for alpha = 0.
+    /// Energy (K/alpha) f_h v_m T that the human's port brings in a sample, J. 0 for alpha = 0.
     #[inline]
     pub fn supplied(&self, sample: &Sample, v_m: Real) -> Real {
         self.port * sample.f_h * v_m * self.T

@@ -2,7 +2,7 @@
 
 use crate::law::Felt;
 use crate::retune::Gradual;
-use crate::{Law, Real};
+use crate::{Law, Real, real};
 use core::fmt;
 use declaration::check::{self, Expected, Objection};
 use declaration::range::{NOT_NEGATIVE, POSITIVE, Range};
@@ -221,6 +221,11 @@ impl Settings {
     pub fn tuning_ticks(&self) -> u32 {
         // The conversion saturates: 4e9 ticks are for ever.
         (self.tuning_time / self.T + 0.5) as u32
+    }
+
+    /// `x`/alpha; 0 for alpha = 0, for which no energy is defined.
+    pub fn over_alpha(&self, x: Real) -> Real {
+        real::quotient_if(self.alpha > 0.0, x, self.alpha)
     }
 
     /// The damper through which the nominal feels y, N·s/m: alpha, or 0 where it feels nothing.

@@ -42,8 +42,16 @@ impl<const N: usize> Rate<N> {
         match &self.most {
             None => 1.0,
             Some(most) => (asked - last)
-                .zip_map(most, |way, most| most / real::abs(way))
+                .zip_map(most, |way, most| part(most, real::abs(way)))
                 .fold(1.0, real::min),
         }
     }
+}
+
+/// Part of `whole` that `most` is, at most 1.
+#[inline]
+pub fn part(most: Real, whole: Real) -> Real {
+    let exceeds = whole > most;
+    let part = real::quotient_if(exceeds, most, whole);
+    if exceeds { part } else { 1.0 }
 }

@@ -72,6 +72,14 @@ pub fn sat(x: Real, bound: Real) -> Real {
     }
 }
 
+/// a/b where `holds`, else 0. It divides by what `holds` allows only: a compiler may else compute the quotient in any
+/// case and then choose, and a host may trap a division by 0.
+#[inline]
+pub fn quotient_if(holds: bool, a: Real, b: Real) -> Real {
+    let b = core::hint::black_box(if holds { b } else { 1.0 });
+    if holds { a / b } else { 0.0 }
+}
+
 /// Whether all of `numbers` are finite: 0·x is 0 for these alone.
 #[inline]
 pub fn are_finite<'a>(numbers: impl IntoIterator<Item = &'a Real>) -> bool {

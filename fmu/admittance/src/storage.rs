@@ -7,7 +7,7 @@
 
 use crate::law::Yields;
 use crate::real::{self, sat};
-use crate::{Gains, Law, Real};
+use crate::{Gains, Law, Real, Settings};
 
 /// The coupling's spring on one axis, with what follows from its gains.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -83,16 +83,22 @@ impl Spring {
 }
 
 impl Mass {
-    /// That of `gains`, with the damper `alpha` (N·s/m).
-    pub fn new(gains: &Gains, alpha: Real) -> Self {
+    /// That of `gains` under `settings`.
+    pub fn new(gains: &Gains, settings: &Settings) -> Self {
+        // Without alpha no energy is defined: 0, without a division by 0.
+        let (K, alpha) = if settings.alpha > 0.0 {
+            (gains.K, settings.alpha)
+        } else {
+            (0.0, 1.0)
+        };
         Self {
-            K: gains.K,
+            K,
             half_M: 0.5 * gains.M_n,
             alpha,
         }
     }
 
-    /// Energy at velocity `v_n` (m/s), J: K ½ M_n v_n²/alpha. Not finite for alpha = 0.
+    /// Energy at velocity `v_n` (m/s), J: K ½ M_n v_n²/alpha. 0 for alpha = 0.
     #[inline]
     pub fn energy(&self, v_n: Real) -> Real {
         self.K * (self.half_M * v_n * v_n / self.alpha)

@@ -27,7 +27,7 @@ pub trait Coordinates<const N: usize> {
     fn is_engaged(&self) -> bool;
     /// The law at `place`: gains on their way take over, the springs slip.
     fn sense(&self, place: &Self::Place) -> Self::Sensed;
-    /// Energy stored then, J. Not finite for alpha = 0.
+    /// Energy stored then, J. 0 for alpha = 0.
     fn stored(&self, sensed: &Self::Sensed) -> Real;
     /// The springs' part of it, J.
     fn springs(&self, sensed: &Self::Sensed) -> Real;
@@ -52,7 +52,7 @@ pub trait Coordinates<const N: usize> {
     /// nominals are `driven` by them.
     fn taken(&self, proposal: &Self::Proposal, driven: &Self::Driven, f: &SVector<Real, N>)
     -> Real;
-    /// Energy (K/alpha) f_h·v_m T that the human's port brings in the sample that begins, J. Not finite for alpha = 0.
+    /// Energy (K/alpha) f_h·v_m T that the human's port brings in the sample that begins, J. 0 for alpha = 0.
     fn supplied(&self, proposal: &Self::Proposal, driven: &Self::Driven) -> Real;
     /// Writes f_demand, q_n, dq_n, e_nr, dq and held.
     fn show(&self, proposal: &Self::Proposal, driven: &Self::Driven, tick: &mut Tick<N>);

@@ -3,6 +3,7 @@
 use admittance::law::Felt;
 use admittance::listed::{Text, laws};
 use admittance::parameters::{check, limit};
+use admittance::rate::part;
 use admittance::tick::{Actuators, Delivered};
 use admittance::{Law, ParameterError, Real, real};
 use declaration::check::Expected;
@@ -116,7 +117,7 @@ impl Limits {
     fn limited(&self, tau: &Vector3<Real>) -> Limited {
         let within = |tau: Real, tau_max: Real| tau.min(tau_max).max(-tau_max);
         let s = tau
-            .zip_map(&self.tau_max, |tau, tau_max| tau_max / real::abs(tau))
+            .zip_map(&self.tau_max, |tau, tau_max| part(tau_max, real::abs(tau)))
             .fold(1.0, Real::min);
         match self.limiting {
             TorqueLimiting::Scale => Limited {

@@ -2,7 +2,7 @@
 
 use super::Watch;
 use crate::Real;
-use crate::real::{abs, sqrt};
+use crate::real::{abs, quotient_if, sqrt};
 
 /// Least ρ of a spring-like half swing: f_h within 37° of opposing x. A reflex delay of 30 ms at 3 Hz turns it by 32°.
 const LEAST_RHO: Real = 0.8;
@@ -81,5 +81,5 @@ impl HalfSwing {
 
 /// a/b, 0 where b is 0.
 fn quotient(a: Real, b: Real) -> Real {
-    if abs(b) > 0.0 { a / b } else { 0.0 }
+    quotient_if(abs(b) > 0.0, a, b)
 }

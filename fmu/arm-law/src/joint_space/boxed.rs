@@ -36,6 +36,9 @@ pub fn solved(A: &Matrix3<Real>, b: &Vector3<Real>, intervals: &[Interval; 3]) -
         let mut least = Real::INFINITY;
         for (i, j) in [(1, 2), (2, 1)] {
             for end in [Real::NEG_INFINITY, Real::INFINITY].map(|far| intervals[i].keep(far)) {
+                if !end.is_finite() {
+                    continue; // no end
+                }
                 let other = intervals[j].keep((b[j] - A.m23 * end) / A[(j, j)]);
                 let cost = 0.5 * (A[(i, i)] * end * end + A[(j, j)] * other * other)
                     + A.m23 * end * other

@@ -232,7 +232,8 @@ impl Coordinates<3> for Joints {
     }
 
     fn masses(&self, sensed: &Sensed) -> Real {
-        self.tuning.now().K * (sensed.body.kinetic(&sensed.v_n) / self.settings.alpha)
+        let kinetic = sensed.body.kinetic(&sensed.v_n);
+        self.tuning.now().K * self.settings.over_alpha(kinetic)
     }
 
     fn reduce(&self, sensed: &mut Sensed, keep: Keep) {
@@ -304,15 +305,16 @@ impl Coordinates<3> for Joints {
 
     /// −ΔH + (k/alpha) tau_h·v_m T ≥ tau·v_m T + (k/alpha) v_mᵀ D_n v_m T + ½ k eᵀ K_P e
     fn taken(&self, proposal: &Proposal, driven: &Solution, tau: &Vector3<Real>) -> Real {
-        let Settings { law, alpha, T, .. } = self.settings;
+        let Settings { law, T, .. } = self.settings;
+        let port = self.settings.over_alpha(self.tuning.now().K);
         let (gains, sample, v_m) = (self.tuning.now(), &proposal.sample, &driven.v_m);
         let damped = v_m.dot(&(sample.D_n * v_m));
-        tau.dot(v_m) * T + gains.K / alpha * damped * T + stored::springs(law, gains, &sample.e)
+        tau.dot(v_m) * T + port * damped * T + stored::springs(law, gains, &sample.e)
     }
 
     fn supplied(&self, proposal: &Proposal, driven: &Solution) -> Real {
-        let Settings { alpha, T, .. } = self.settings;
-        self.tuning.now().K / alpha * proposal.sample.tau_h.dot(&driven.v_m) * T
+        let T = self.settings.T;
+        self.settings.over_alpha(self.tuning.now().K) * proposal.sample.tau_h.dot(&driven.v_m) * T
     }
 
     fn show(&self, proposal: &Proposal, driven: &Solution, tick: &mut Tick<3>) {

@@ -1,5 +1,6 @@
 //! Forces too small to be meant.
 
+use admittance::rate::part;
 use admittance::{Real, real};
 use nalgebra::Vector3;
 
@@ -17,5 +18,5 @@ pub fn deadband(force: &Vector3<Real>, width: Real) -> Vector3<Real> {
         return *force;
     }
     let length = real::hypot(real::hypot(force.x, force.y), force.z);
-    force * real::max(0.0, 1.0 - width / length)
+    force * (1.0 - part(width, length))
 }

@@ -5,6 +5,7 @@
 use nalgebra::{Matrix3, Vector3};
 
 use super::problem::{FACINGS, Path, Problem, Solution};
+use super::quotient::quotient_if;
 
 /// Sweeps after which the solver takes what there is.
 pub const SWEEPS: u32 = 300;
@@ -60,11 +61,9 @@ pub fn solve(problem: &Problem, sweeps: u32) -> Solution {
         let grip = problem.grip(&normal);
         for axis in 0..3 {
             let w = J.row(axis).transpose().dot(&v);
-            let wish = if mobility[axis] > 0.0 {
-                tangent[axis] - w / mobility[axis]
-            } else {
-                0.0
-            };
+            let moves = mobility[axis] > 0.0;
+            let way = quotient_if(moves, w, mobility[axis]);
+            let wish = if moves { tangent[axis] - way } else { 0.0 };
             let next = wish.max(-grip[axis]).min(grip[axis]);
             let difference = next - tangent[axis];
             tangent[axis] = next;

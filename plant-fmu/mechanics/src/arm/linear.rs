@@ -4,6 +4,7 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::guess::{Guess, Motion};
 use super::problem::{FACINGS, Path, Problem, Solution};
+use super::quotient::quotient_if;
 
 /// A tangential force is not needed where other forces hold its axis already: where its pivot has shrunk to this part
 /// of the largest diagonal element. Rounding leaves 1e-15; real geometry stays far above.
@@ -204,9 +205,7 @@ fn hold(mut S: Matrix3<f64>, mut y: Vector3<f64>, axes: [bool; 3]) -> Vector3<f6
         }
     }
     for axis in 0..3 {
-        if used[axis] {
-            t[axis] = y[axis] / S[(axis, axis)];
-        }
+        t[axis] = quotient_if(used[axis], y[axis], S[(axis, axis)]);
     }
     t
 }

@@ -57,6 +57,7 @@ pub mod parameters;
 pub mod payload;
 pub mod plant;
 pub mod problem;
+mod quotient;
 mod revision;
 pub mod rigid_body;
 pub mod solver;
