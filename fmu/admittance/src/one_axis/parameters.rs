@@ -76,7 +76,7 @@ pub struct AxisParameters {
     #[parameter(46, unit = NEWTON_PER_SECOND, range = NOT_NEGATIVE)]
     pub tau_rate_max: Real,
     /// Largest absolute position: a reading beyond it cannot be.
-    #[parameter(49, name = "encoder.range", unit = METRE, range = POSITIVE, start = 100.0)]
+    #[parameter(49, name = "encoder.range", unit = METRE, range = POSITIVE, start = 1e4)]
     pub encoder_range: Real,
     /// Change of tau_a in which q must change, too, in its last bit at least; 0 = off. Above what friction holds.
     #[parameter(50, name = "encoder.stuck_force", unit = NEWTON, range = NOT_NEGATIVE)]

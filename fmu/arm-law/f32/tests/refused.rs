@@ -5,7 +5,11 @@ use arm_law_f32::{ArmInputs, ArmOutputs, ArmParameters};
 
 #[test]
 fn a_refused_tick_at_which_it_would_engage_changes_nothing() {
-    let mut law = ArmLaw::new(&ArmParameters::default()).expect("legal");
+    let parameters = ArmParameters {
+        K: [1e6; 3],
+        ..ArmParameters::default()
+    };
+    let mut law = ArmLaw::new(&parameters).expect("legal");
     let mut outputs = ArmOutputs::default();
     let inputs = ArmInputs {
         q: [0.1, -1.4, 1.6],
@@ -14,7 +18,7 @@ fn a_refused_tick_at_which_it_would_engage_changes_nothing() {
     };
     let before = law;
     let overflowing = ArmInputs {
-        q: [1e300, -1.4, 1.6], // a number in double precision alone
+        f_h: [f32::MAX; 3], // K y is beyond all numbers
         ..inputs
     };
     assert_eq!(law.tick(&overflowing, &mut outputs), Err(NotFinite));

@@ -35,8 +35,7 @@ fn difference(place: f64) -> (f64, f64) {
         let inputs = AxisInputs {
             q: place + 0.1 * (0.9 * t).sin(),
             tau_h: (6.0 * (0.7 * t).sin()) as f32,
-            engage: 1,
-            hold: 0,
+            ..AxisInputs::default()
         };
         let status = exo_axis_tick(&mut *state, &inputs, &mut *outputs, null_mut());
         assert_eq!(status, Status::Ok);
