@@ -201,6 +201,11 @@ impl<const N: usize> Coordinates<N> for Axes<N> {
     }
 
     #[inline]
+    fn exchanged(&self, proposal: &Proposal<N>, driven: &[axis::Driven; N]) -> Real {
+        sum::<N>(|i| self.axes[i].exchanged(&proposal[i], driven[i]))
+    }
+
+    #[inline]
     fn show(&self, proposal: &Proposal<N>, driven: &[axis::Driven; N], tick: &mut Tick<N>) {
         tick.held = false;
         for i in 0..N {

@@ -205,6 +205,12 @@ impl Axis {
         self.rule.supplied(&proposal.sample, driven.v_m)
     }
 
+    /// The terms of the energy that passes the coupling in the sample that begins, at their sizes, J.
+    #[inline]
+    pub fn exchanged(&self, proposal: &Proposal, driven: Driven) -> Real {
+        self.rule.exchanged(&proposal.sample, driven.v_m)
+    }
+
     /// The nominal moves on as `driven`, while the robot gets the force `f` (N), which the caller's limits left of what the
     /// axis asked for. Where its spring `slips` it is set back.
     #[inline]

@@ -43,7 +43,7 @@ pub struct Ledger<const N: usize> {
     commanded: SVector<Real, N>,
     /// the force that acts now: with a delay the one before
     pub(crate) acting: SVector<Real, N>,
-    pub(crate) supplied: Real,
+    pub(crate) flow: Flow,
     /// how far rounding may have carried the tank below zero since it was last above
     pub(crate) rounding: Real,
 }
@@ -60,6 +60,16 @@ pub(crate) struct Terms<const N: usize> {
     pub delayed: bool,
     pub E_0: Real,
     pub reach: SampleReach<N>,
+}
+
+/// Energies of the sample that begins, J.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Flow {
+    /// What the human's port brings: (K/alpha) f_h v_m T.
+    pub supplied: Real,
+    /// The terms of what passes the coupling, at their sizes.
+    pub exchanged: Real,
 }
 
 impl<const N: usize> Ledger<N> {
@@ -82,7 +92,7 @@ impl<const N: usize> Ledger<N> {
             outside: false,
             commanded: SVector::zeros(),
             acting: SVector::zeros(),
-            supplied: 0.0,
+            flow: Flow::default(),
             rounding: 0.0,
         }
     }
@@ -145,14 +155,14 @@ impl<const N: usize> Ledger<N> {
     }
 
     /// Takes over the sample that ended at the position `q` (m), if it is known, and opens the one that begins: with the force
-    /// `f` (N) on the robot that this tick says, and the energy (K/alpha) f_h v_m T (J) that the human's port brings.
+    /// `f` (N) on the robot that this tick says, and the energies that pass the nominal.
     #[inline]
     pub fn book(
         &mut self,
         ended: &Settlement<N>,
         q: Option<&SVector<Real, N>>,
         f: &SVector<Real, N>,
-        supplied: Real,
+        flow: Flow,
     ) {
         self.q = q.copied();
         (self.step, self.outside) = (ended.step, ended.outside);
@@ -164,7 +174,7 @@ impl<const N: usize> Ledger<N> {
             } else {
                 *f
             };
-            (self.commanded, self.supplied) = (*f, supplied);
+            (self.commanded, self.flow) = (*f, flow);
         }
     }
 

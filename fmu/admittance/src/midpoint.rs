@@ -147,6 +147,15 @@ impl Rule {
         self.port * sample.f_h * v_m * self.T
     }
 
+    /// The terms of the energy that passes the coupling in a sample, at their sizes, J: y is a difference of them, and their
+    /// rounding is the nominal's.
+    ///
+    /// K T (1 + K_P T/2)(v_m² + dq²)
+    #[inline]
+    pub fn exchanged(&self, sample: &Sample, v_m: Real) -> Real {
+        self.gains.K * self.T * self.lead * (v_m * v_m + sample.dq * sample.dq)
+    }
+
     /// Energy (J) that the law is sure to take in a sample over which the robot gets the force `f` (N), while the nominal
     /// feels it and moves with `v_m` (m/s): what the human brings less what the nominal keeps, its damping, and the spring,
     /// which can be given up afterwards.

@@ -1,6 +1,6 @@
 //! A sample that has ended: what it created, and what is given up for it.
 
-use crate::ledger::Ledger;
+use crate::ledger::{Flow, Ledger};
 use crate::tick::Coordinates;
 use crate::{Real, real};
 use nalgebra::SVector;
@@ -121,12 +121,16 @@ impl<const N: usize> Ledger<N> {
             .terms
             .reach
             .most_work(&self.acting, self.foretelling(), 1);
-        let created = most - self.H - self.supplied;
+        let created = most - self.H - self.flow.supplied;
         if !self.terms.defined || !(self.G + created).is_finite() {
             return self.unpaid(None, false);
         }
         self.paid(None, false, 0.0, created, || {
-            real::abs(self.tank) + real::abs(most) + self.H + real::abs(self.supplied)
+            let Flow {
+                supplied,
+                exchanged,
+            } = self.flow;
+            real::abs(self.tank) + real::abs(most) + self.H + real::abs(supplied) + exchanged
         })
     }
 
@@ -177,7 +181,7 @@ impl<const N: usize> Ledger<N> {
             Some(last) => self.acting.dot(&(q - last)),
             None => self.terms.reach.most_work(&self.acting, None, 1),
         };
-        H - self.H + work - self.supplied
+        H - self.H + work - self.flow.supplied
     }
 
     /// The terms of ΔG at their sizes, J.
@@ -185,6 +189,10 @@ impl<const N: usize> Ledger<N> {
         let work = self
             .q
             .map_or(0.0, |last| self.acting.abs().dot(&(q - last).abs()));
-        real::abs(self.tank) + H + self.H + work + real::abs(self.supplied)
+        let Flow {
+            supplied,
+            exchanged,
+        } = self.flow;
+        real::abs(self.tank) + H + self.H + work + real::abs(supplied) + exchanged
     }
 }

@@ -1,6 +1,6 @@
 //! One tick of the law, whatever its coordinates: settle, propose, deliver, share, commit.
 
-use crate::ledger::Ledger;
+use crate::ledger::{Flow, Ledger};
 use crate::rate::Rate;
 use crate::settling::{Keep, Settlement};
 use crate::{ParameterError, Reach, Real, Settings};
@@ -54,6 +54,9 @@ pub trait Coordinates<const N: usize> {
     -> Real;
     /// Energy (K/alpha) f_h·v_m T that the human's port brings in the sample that begins, J. 0 for alpha = 0.
     fn supplied(&self, proposal: &Self::Proposal, driven: &Self::Driven) -> Real;
+    /// The terms of the energy that passes the coupling in the sample that begins, at their sizes, J: what rounding is
+    /// measured by.
+    fn exchanged(&self, proposal: &Self::Proposal, driven: &Self::Driven) -> Real;
     /// Writes f_demand, q_n, dq_n, e_nr, dq and held.
     fn show(&self, proposal: &Self::Proposal, driven: &Self::Driven, tick: &mut Tick<N>);
     /// The nominals move on, while the robot gets the forces `f` (N).
@@ -233,7 +236,10 @@ impl<L: Coordinates<N>, const N: usize> Sampled<L, N> {
         }
 
         // 5. Commit. The nominals move on, feeling what the law says, and the sample that begins is booked.
-        let supplied = law.supplied(&proposal, &driven);
+        let flow = Flow {
+            supplied: law.supplied(&proposal, &driven),
+            exchanged: law.exchanged(&proposal, &driven),
+        };
         let mut tick = Tick {
             f,
             tau,
@@ -249,7 +255,7 @@ impl<L: Coordinates<N>, const N: usize> Sampled<L, N> {
             return Err(Refused);
         }
         self.law.commit(&proposal, &driven, &f);
-        self.book(&settlement, Some(inputs.q), f, tau, supplied);
+        self.book(&settlement, Some(inputs.q), f, tau, flow);
         Ok(())
     }
 
@@ -278,9 +284,9 @@ impl<L: Coordinates<N>, const N: usize> Sampled<L, N> {
         q: Option<&SVector<Real, N>>,
         f: SVector<Real, N>,
         tau: SVector<Real, N>,
-        supplied: Real,
+        flow: Flow,
     ) {
-        self.ledger.book(ended, q, &tau, supplied);
+        self.ledger.book(ended, q, &tau, flow);
         (self.f, self.tau) = (f, tau);
     }
 
@@ -310,7 +316,13 @@ impl<L: Coordinates<N>, const N: usize> Sampled<L, N> {
 
     fn leave(&mut self, ended: &Settlement<N>, q: Option<&SVector<Real, N>>) -> bool {
         self.law.rest();
-        self.book(ended, q, SVector::zeros(), SVector::zeros(), 0.0);
+        self.book(
+            ended,
+            q,
+            SVector::zeros(),
+            SVector::zeros(),
+            Flow::default(),
+        );
         ended.is_outside()
     }
 

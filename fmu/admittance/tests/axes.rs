@@ -1,6 +1,7 @@
 //! N axes are N times the one axis, under one ledger and one factor.
 #![allow(non_snake_case, reason = "the paper's symbols")]
 
+use admittance::ledger::Flow;
 use admittance::tick::Coordinates;
 use admittance::{Admittance, Axes, Gains, Law, Ledger, Reach, Request, Settings};
 use nalgebra::{Vector1, Vector3};
@@ -167,7 +168,7 @@ fn axes_with_a_ledger_of_the_callers_own_make_the_law() {
                 law.rest(&q);
                 axes.rest();
                 let ended = own.close(0.0, &q);
-                own.book(&ended, Some(&q), &Vector3::zeros(), 0.0);
+                own.book(&ended, Some(&q), &Vector3::zeros(), Flow::default());
             } else {
                 let tick = law.step(&q, &f_h);
                 let mut sensed = axes.sense(&q);
@@ -179,7 +180,11 @@ fn axes_with_a_ledger_of_the_callers_own_make_the_law() {
                 let f = axes.f(&proposal);
                 assert_eq!(f, tick.f);
                 let driven = axes.driven(&proposal, &f);
-                own.book(&ended, Some(&q), &f, axes.supplied(&proposal, &driven));
+                let flow = Flow {
+                    supplied: axes.supplied(&proposal, &driven),
+                    exchanged: axes.exchanged(&proposal, &driven),
+                };
+                own.book(&ended, Some(&q), &f, flow);
                 axes.commit(&proposal, &driven, &f);
             }
             assert_eq!(&own, law.ledger(), "tick {k}");

@@ -2,7 +2,8 @@
 #![allow(non_snake_case, reason = "the paper's symbols")]
 
 mod robot;
-use admittance::{Admittance, Gains, Law, Settings};
+use admittance::{Admittance, Gains, Law, Reach, Real, Settings};
+use nalgebra::Vector1;
 use proptest::prelude::*;
 use robot::{tick, unlimited};
 
@@ -266,5 +267,60 @@ fn with_alpha_zero_there_is_no_ledger() {
             (ledger.is_defined(), ledger.H(), ledger.G(), ledger.tank()),
             (false, 0.0, 0.0, 0.0)
         );
+    }
+}
+
+/// Gains over decades, most of them of no use, all of them accepted.
+fn any_gains() -> impl Strategy<Value = (Gains, Settings)> {
+    let decade = |low: f64, high: f64| (low..high).prop_map(|x| 10_f64.powf(x));
+    (
+        decade(-5.9, 3.0),
+        decade(-3.0, 3.0),
+        decade(-1.0, 10.0),
+        decade(-1.0, 9.0),
+        decade(0.0, 12.0),
+        decade(-3.0, 9.0),
+        decade(-4.0, -1.0),
+    )
+        .prop_map(|(M_n, D_n, K, K_P, f_max, alpha, period)| {
+            let gains = Gains {
+                M_n,
+                D_n: if D_n < 1.0 { 0.0 } else { D_n },
+                K,
+                K_P,
+                f_max,
+            };
+            let settings = Settings {
+                law: Law::PassiveBounded,
+                alpha,
+                T: period,
+                E_0: 0.0,
+                ..Settings::default()
+            };
+            (gains, settings)
+        })
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 4000, ..ProptestConfig::default() })]
+    /// docs/passivity.md: −E ≤ 64 ε S. Beyond it the law would call rounding a debt and give no force.
+    #[test]
+    fn rounding_is_never_called_a_debt(
+        (gains, settings) in any_gains(),
+        motion in prop::collection::vec((-1.0..1.0, -1.0..1.0), 60),
+        most in prop::sample::select(vec![0.0, 1e-6, 50.0]),
+        unsteady in prop::sample::select(vec![0.0, 1e-12, 1e-6, 1.0]),
+    ) {
+        let reach = Reach { v_max: Vector1::new(10.0), a_max: Vector1::new(Real::INFINITY) };
+        let mut law = Admittance::new(settings, [gains])
+            .and_then(|law| law.reaching(reach))
+            .expect("accepted");
+        let mut q = 0.0;
+        for (share, f_h) in motion {
+            let tick = law.step(&Vector1::new(q), &Vector1::new(most * f_h));
+            prop_assert!(!tick.outside_bounds);
+            prop_assert!(!law.ledger().is_in_debt(), "{} J", law.ledger().tank());
+            q += (unsteady * share + 1.0 - unsteady) * 9.9 * settings.T;
+        }
     }
 }

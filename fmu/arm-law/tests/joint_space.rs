@@ -1,6 +1,7 @@
 //! The law in joint space, eq:obs_dyn and eq:dob_input: against the law of one axis, its own energy formula, and the continuous equations.
 #![allow(non_snake_case, reason = "the paper's symbols")]
 
+use admittance::ledger::Flow;
 use admittance::tick::{Coordinates, Tick as Shown};
 use admittance::{Admittance, Gains, Law, Ledger, Reach, Real, Settings};
 use arm_law::ParameterError;
@@ -63,7 +64,10 @@ impl Run {
             &ended,
             Some(q),
             &tau,
-            self.joints.supplied(&proposal, &driven),
+            Flow {
+                supplied: self.joints.supplied(&proposal, &driven),
+                exchanged: self.joints.exchanged(&proposal, &driven),
+            },
         );
         self.joints.commit(&proposal, &driven, &tau);
         Tick { tau, law, H }

@@ -7,7 +7,7 @@ use crate::motions::Motions;
 use crate::random::Random;
 use crate::subject::{Order, Subject, supply};
 use crate::tuning::Tuning;
-use admittance::Request;
+use admittance::{Gains, Request};
 use nalgebra::SVector;
 
 /// What a run showed.
@@ -60,6 +60,14 @@ impl Outcome {
         };
         worst + emptied.min(1.0) + 1e-3 * f64::from(self.limited).sqrt()
     }
+}
+
+/// The terms of the energy that passes the couplings in a sample at nominal velocities `dq_n` (m/s), at their sizes, J:
+/// K T v² (1 + K_P T/2).
+#[allow(non_snake_case, reason = "the paper's symbol")]
+fn exchanged<const N: usize>(T: f64, gains: &[Gains; N], dq_n: &SVector<f64, N>) -> f64 {
+    let of_axis = |(gains, v): (&Gains, &f64)| gains.K * T * v * v * (1.0 + gains.K_P * T / 2.0);
+    gains.iter().zip(dq_n).map(of_axis).sum()
 }
 
 /// Runs `case` for `ticks` ticks.
@@ -123,6 +131,7 @@ pub fn run<const N: usize, S: Subject<N>>(case: &Case<N>, ticks: u32) -> Outcome
         was_engaged = engaged;
 
         largest = f64::max(largest, seen.H);
+        largest = f64::max(largest, exchanged(settings.T, &gains, &seen.dq_n));
         let rounding = A_SAMPLE * largest + f64::MIN_POSITIVE;
         outcome.least_tank = outcome.least_tank.min(seen.tank);
         outcome.most_stored = outcome.most_stored.max(seen.H);

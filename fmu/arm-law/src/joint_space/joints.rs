@@ -317,6 +317,15 @@ impl Coordinates<3> for Joints {
         self.settings.over_alpha(self.tuning.now().K) * proposal.sample.tau_h.dot(&driven.v_m) * T
     }
 
+    fn exchanged(&self, proposal: &Proposal, driven: &Solution) -> Real {
+        let (gains, T) = (self.tuning.now(), self.settings.T);
+        let squares = |i: usize| {
+            let (v_m, dq) = (driven.v_m[i], proposal.sample.dq[i]);
+            (1.0 + gains.K_P[i] * T / 2.0) * (v_m * v_m + dq * dq)
+        };
+        gains.K * T * (squares(0) + squares(1) + squares(2))
+    }
+
     fn show(&self, proposal: &Proposal, driven: &Solution, tick: &mut Tick<3>) {
         let Sample { e, v_n, dq, .. } = &proposal.sample;
         tick.f_demand = proposal.tau_demand;

@@ -7,7 +7,7 @@ use super::validity::{Checks, Seen, Validity};
 use super::{Fault, Frame, Mount, TareState, Tool, Wrench};
 use crate::choices::{FRAME, LINK_3, SOURCE, WRENCH};
 use admittance::parameters::in_range;
-use admittance::{ParameterError, Real};
+use admittance::{ParameterError, Real, real};
 use declaration::{Rows, Start};
 use nalgebra::{Matrix3, Vector3};
 
@@ -183,7 +183,7 @@ impl Conditioner {
         q: impl FnOnce() -> Vector3<Real>,
     ) -> (Made, Conditioned) {
         let seen = self.validity.sampled(reading.wrench, reading.valid);
-        let fault = seen.fault();
+        let mut fault = seen.fault();
         let unladen = match &self.sensor.tool {
             tool if tool.mass == 0.0 => *reading.wrench,
             tool => *reading.wrench - tool.weight(&R()),
@@ -203,6 +203,11 @@ impl Conditioner {
                 passed = Some(hand);
             }
             hand.force = deadband(&hand.force, self.sensor.deadband);
+            // A tool of 1e308 kg, say: what is left of the reading is no number, and no force is known.
+            if !real::are_finite(hand.force.iter().chain(&hand.torque)) {
+                (hand, fault) = (Wrench::ZERO, Some(Fault::NotFinite));
+                passed = self.filter.at_rest();
+            }
         }
         let made = Made {
             seen,

@@ -69,3 +69,25 @@ fn after_a_fault_the_force_builds_up_from_zero() {
         .find(|tick| tick.fault.is_none());
     assert_eq!(back.unwrap().hand.force.norm(), first);
 }
+
+#[test]
+fn a_force_that_is_no_number_once_the_tool_is_taken_off_is_a_fault_and_no_force() {
+    for cutoff in [0.0, 20.0] {
+        let tool = Tool {
+            mass: 1e308,
+            ..sensor().tool
+        };
+        let mut conditioner = Conditioner::new(
+            Sensor {
+                tool,
+                cutoff,
+                ..sensor()
+            },
+            T,
+        )
+        .unwrap();
+        let seen = step(&mut conditioner, Vector3::new(3.0, 0.0, 0.0));
+        assert_eq!(seen.hand, Wrench::ZERO);
+        assert_eq!(seen.fault, Some(arm_law::wrench::Fault::NotFinite));
+    }
+}
