@@ -7,7 +7,7 @@
 //! |---|---|
 //! | `not_finite` | a position is NaN or infinite; always on |
 //! | `over_range` | a position lies beyond ±range, where the robot cannot be |
-//! | `jump` | a position has moved by more than v_max T in a sample, faster than the robot can |
+//! | `jump` | a position has moved by more than v_max T in a sample, and by more than a_max T² otherwise than in the one before |
 //! | `stuck` | a position is bit for bit the same while its force has changed by the force that would move it |
 //! | `invalid` | the encoder's own word |
 //!
@@ -18,7 +18,7 @@
 //! A fault lasts until `samples` samples in a row have followed one another; `not_finite` and `invalid` last as long as
 //! they are seen.
 
-use crate::real::abs;
+use crate::real::{abs, min};
 use crate::{Reach, Real};
 use core::fmt::{Display, Formatter};
 use declaration::{Enumeration, Item};
@@ -33,7 +33,7 @@ pub enum Fault {
     NotFinite = 1,
     /// A position lies where the robot cannot be.
     OverRange = 2,
-    /// A position has moved faster than the robot can.
+    /// A position has moved faster than the robot can, all at once.
     Jump = 3,
     /// A position stays the same while its force changes.
     Stuck = 4,
@@ -92,7 +92,7 @@ pub const FAULT: Enumeration = Enumeration {
         item(Fault::OverRange, "one lies beyond encoder.range"),
         item(
             Fault::Jump,
-            "one has moved faster than the robot can since the last reading",
+            "one has moved faster than the robot can since the last reading, and not as it moved before",
         ),
         item(
             Fault::Stuck,
@@ -185,6 +185,8 @@ pub struct Encoders<const N: usize> {
     checks: Checks<N>,
     /// v_max T, m or rad, with the rounding that the reach allows for
     step: SVector<Real, N>,
+    /// the change of a step that no robot makes, m or rad: a_max T², and at most v_max T
+    change: SVector<Real, N>,
     /// the last reading that was a number, m or rad
     read: Option<SVector<f64, N>>,
     /// the last position that the law was told
@@ -209,6 +211,9 @@ impl<const N: usize> Encoders<N> {
         Self {
             checks,
             step: reach.steps(T),
+            change: reach
+                .steps(T)
+                .zip_map(&reach.a_max, |step, a_max| min(step, a_max * T * T)),
             read: None,
             told: None,
             per_tick: SVector::zeros(),
@@ -250,7 +255,7 @@ impl<const N: usize> Encoders<N> {
         if let Some(fault) = self.fault.filter(|fault| fault.lasts()) {
             return self.recovering(fault, found, &q, after);
         }
-        let jumped = self.jumps(self.told.as_ref(), &q, after);
+        let jumped = self.jumps(self.told.as_ref(), &q, &self.per_tick, after);
         self.read = Some(q);
         match found.or(jumped.then_some(Fault::Jump)) {
             None => {
@@ -294,7 +299,9 @@ impl<const N: usize> Encoders<N> {
     ) -> Believed<N> {
         let stuck = |read: SVector<f64, N>| (0..N).any(|i| i == self.stuck && read[i] == q[i]);
         let stands = fault == Fault::Stuck && self.read.is_some_and(stuck);
-        let sound = found.is_none() && !stands && !self.jumps(self.read.as_ref(), q, after);
+        let sound = found.is_none()
+            && !stands
+            && !self.jumps(self.read.as_ref(), q, &SVector::zeros(), after);
         self.count = if sound { self.count + 1 } else { 0 };
         self.read = Some(*q);
         if self.count >= self.checks.samples.max(1) {
@@ -350,13 +357,22 @@ impl<const N: usize> Encoders<N> {
         self.believe(q)
     }
 
-    /// Whether the robot cannot have come from `from` to `q` in this many ticks.
-    fn jumps(&self, from: Option<&SVector<f64, N>>, q: &SVector<f64, N>, after: u32) -> bool {
+    /// Whether the robot cannot have come from `from` to `q` in this many ticks, having moved by `before` per tick: faster than
+    /// it can, and not as it has moved.
+    fn jumps(
+        &self,
+        from: Option<&SVector<f64, N>>,
+        q: &SVector<f64, N>,
+        before: &SVector<f64, N>,
+        after: u32,
+    ) -> bool {
         let ticks = after as Real;
-        self.checks.samples > 0
-            && from.is_some_and(|from| {
-                (0..N).any(|i| abs((q[i] - from[i]) as Real) > ticks * self.step[i])
-            })
+        let is_far = |i: usize, from: &SVector<f64, N>| {
+            let way = q[i] - from[i];
+            let other = way - before[i] * f64::from(after);
+            abs(way as Real) > ticks * self.step[i] && abs(other as Real) > ticks * self.change[i]
+        };
+        self.checks.samples > 0 && from.is_some_and(|from| (0..N).any(|i| is_far(i, from)))
     }
 
     /// Whether a position stands still while its force changes.

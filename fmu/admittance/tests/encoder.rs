@@ -213,3 +213,29 @@ fn the_age_of_a_reading_counts_the_ticks_that_saw_the_one_before() {
     let ages = [true, true, false, false, true, true].map(|fresh| age.at(fresh));
     assert_eq!(ages, [1, 1, 0, 0, 3, 1]);
 }
+
+#[test]
+fn a_robot_that_really_is_faster_than_it_should_be_is_believed() {
+    // 0.2 mm more in each sample, on from 10 mm.
+    let mut encoders = encoders(|_| ());
+    let (mut q, mut step) = (0.0, 0.0);
+    for k in 0..120 {
+        q += step;
+        step += 2e-4;
+        let believed = read(&mut encoders, q);
+        assert_eq!((told(&believed), believed.fault), (Some(q), None), "{k}");
+        if q > 1.9 {
+            break;
+        }
+    }
+    assert!(step > 0.02);
+}
+
+#[test]
+fn from_rest_no_more_than_the_largest_speed_is_believed_whatever_the_acceleration() {
+    for (way, fault) in [(0.009_999, None), (0.010_001, Some(Fault::Jump))] {
+        let mut encoders = encoders(|_| ());
+        read(&mut encoders, 0.5);
+        assert_eq!(read(&mut encoders, 0.5 + way).fault, fault, "{way}");
+    }
+}
