@@ -86,3 +86,31 @@ macro_rules! enumeration {
         })
     };
 }
+
+/// An [`Enumeration`](crate::Enumeration): its name and what it is, then an item a line with number, name and meaning. Where
+/// code asks for an item, a constant comes before its number.
+///
+/// ```
+/// declaration::choices! { MODE "Mode" "What it does":
+///     IDLE = 1 "idle" "nothing";
+///     4 "busy" "something";
+/// }
+/// assert_eq!((MODE.items[0].value, MODE.items[1].name), (IDLE, "busy"));
+/// ```
+#[macro_export]
+macro_rules! choices {
+    ($ENUMERATION:ident $type_name:literal $type_about:literal:
+     $($($ITEM:ident =)? $value:literal $name:literal $about:literal;)*) => {
+        $($(
+            #[doc = $about]
+            pub const $ITEM: i32 = $value;
+        )?)*
+
+        #[doc = $type_about]
+        pub const $ENUMERATION: $crate::Enumeration = $crate::Enumeration {
+            name: $type_name,
+            about: $type_about,
+            items: &[$($crate::Item::new($value, $name, $about)),*],
+        };
+    };
+}
