@@ -91,7 +91,7 @@ impl Desired {
 
 /// What a comparator did at a tick; every value is the one at t_k.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Tick {
+pub struct ComparatorTick {
     /// Force on the robot, N, within ±f_max, held until the next tick.
     pub f: Real,
     /// The force before the limit, N.
@@ -106,7 +106,7 @@ pub struct Tick {
     pub dq: Real,
 }
 
-impl Tick {
+impl ComparatorTick {
     /// With the model at `q_n` (m), at the begin of the `sample`.
     pub(crate) fn of(q_n: Real, sample: &Sample, f: Real, f_demand: Real) -> Self {
         Self {

@@ -32,7 +32,7 @@
 //! No force of an environment that the sensor does not see reaches the model. At a wall dq = 0, not even the damper acts,
 //! and q_d runs away as ½ f_h t²/M: it sticks, longer than `standard`.
 
-use crate::comparator::{Desired, Tick};
+use crate::comparator::{ComparatorTick, Desired};
 use crate::midpoint::Sample;
 use crate::parameters::check;
 use crate::real::{self, sat};
@@ -68,7 +68,7 @@ impl Natural {
     }
 
     /// One tick at position `q` (m) with the human's force `f_h` (N); the first one engages with q_d = q, v_d = 0.
-    pub fn step(&mut self, q: Real, f_h: Real) -> Tick {
+    pub fn step(&mut self, q: Real, f_h: Real) -> ComparatorTick {
         let (q_d, sample) = self.model.sense(q, f_h);
         let Gains { D_n, K, f_max, .. } = self.model.rule.gains;
         let Sample { v_n: v_d, dq, .. } = sample;
@@ -79,13 +79,13 @@ impl Natural {
         let f_demand = f_v + K * self.model.rule.coupling(&sample, v_m);
 
         self.model.advance(q_d, &sample, v_m);
-        Tick::of(q_d, &sample, sat(f_demand, f_max), f_demand)
+        ComparatorTick::of(q_d, &sample, sat(f_demand, f_max), f_demand)
     }
 
     /// One tick out of the loop at position `q` (m): no force; the next [`step`](Self::step) engages anew.
-    pub fn rest(&mut self, q: Real) -> Tick {
+    pub fn rest(&mut self, q: Real) -> ComparatorTick {
         self.model.rest();
-        Tick::at_rest(q)
+        ComparatorTick::at_rest(q)
     }
 }
 

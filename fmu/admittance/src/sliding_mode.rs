@@ -32,7 +32,7 @@
 //! The admittance proxy feels nothing of the robot: at a wall it runs away and the robot sticks, as under `standard`.
 //! The 2014 controller shapes the surface s further, for a faster return; the proxy outside it is the same.
 
-use crate::comparator::{Desired, Tick};
+use crate::comparator::{ComparatorTick, Desired};
 use crate::parameters::check;
 use crate::real::{floored, sat};
 use crate::{Gains, ParameterError, Real, Settings};
@@ -68,7 +68,7 @@ impl SlidingMode {
     }
 
     /// One tick at position `q` (m) with the human's force `f_h` (N); the first one engages with q_n = q, v_n = 0, b = 0.
-    pub fn step(&mut self, q: Real, f_h: Real) -> Tick {
+    pub fn step(&mut self, q: Real, f_h: Real) -> ComparatorTick {
         let (q_n, sample) = self.proxy.sense(q, f_h);
         let Gains { K, K_P, f_max, .. } = self.proxy.rule.gains;
         let (T, H) = (self.proxy.settings.T, self.H);
@@ -82,14 +82,14 @@ impl SlidingMode {
 
         self.b = floored((self.b + T * f / K) / (1.0 + K_P * T));
         self.proxy.advance(q_n, &sample, v_m);
-        Tick::of(q_n, &sample, f, f_demand)
+        ComparatorTick::of(q_n, &sample, f, f_demand)
     }
 
     /// One tick out of the loop at position `q` (m): no force; the next [`step`](Self::step) engages anew.
-    pub fn rest(&mut self, q: Real) -> Tick {
+    pub fn rest(&mut self, q: Real) -> ComparatorTick {
         self.proxy.rest();
         self.b = 0.0;
-        Tick::at_rest(q)
+        ComparatorTick::at_rest(q)
     }
 
     /// b = p − q, how far the inner proxy is ahead of the robot, m.
