@@ -144,6 +144,22 @@ mod tests {
     }
 
     #[test]
+    fn each_struct_of_a_law_but_its_memory_says_what_its_fields_mean() {
+        let text = header().unwrap_or_else(|error| panic!("{error}"));
+        let mut structs: Vec<_> = text.split("typedef struct ").skip(1).collect();
+        structs.retain(|of| of.starts_with("exo_a") && !word(of).ends_with("_state"));
+        assert!(structs.len() > 15, "{}", structs.len());
+        for of in structs {
+            let fields = of.split_once('}').map_or("", |(fields, _)| fields);
+            assert!(
+                fields.contains("; // "),
+                "{}: not in the list of this file",
+                word(of)
+            );
+        }
+    }
+
+    #[test]
     fn the_committed_header_is_what_the_source_gives() {
         let text = header().unwrap_or_else(|error| panic!("{error}"));
         let committed = std::fs::read_to_string(committed()).expect("is committed");
