@@ -1,11 +1,21 @@
 //! Writes what belongs in an FMU archive, from a model's [`declaration`] alone.
 //!
 //! ```
-//! use declaration::{real, unit, Declare, Description, Experiment, Stepping, Variability::*};
+//! use declaration::{Declare, Description, Experiment, Rows, Start, Stepping};
 //! use model_description::{Interface, archive::{self, Contents}};
 //!
-//! #[derive(Default)]
-//! struct Lag { u: f64, y: f64, tau: f64 }
+//! #[derive(Rows, Start)]
+//! struct Lag {
+//!     /// Input.
+//!     #[input(0)]
+//!     u: f64,
+//!     /// Output.
+//!     #[output(1, from = ["u"])]
+//!     y: f64,
+//!     /// Time constant.
+//!     #[parameter(2, unit = SECOND, range = 0.0..)]
+//!     tau: f64,
+//! }
 //!
 //! impl Declare for Lag {
 //!     const DESCRIPTION: Description<Self> = Description {
@@ -13,11 +23,7 @@
 //!         about: "First-order lag",
 //!         stepping: Stepping::Exact,
 //!         experiment: Experiment { start: 0.0, stop: 1.0, tolerance: 1e-6, step: 0.01 },
-//!         variables: &[
-//!             real!(u, unit::NONE).input(Continuous).about("input"),
-//!             real!(y, unit::NONE).output(Continuous).initially_from(&["u"]).about("output"),
-//!             real!(tau, unit::SECOND).parameter(Fixed).at_least(0.0).about("time constant"),
-//!         ],
+//!         variables: Self::ROWS,
 //!     };
 //! }
 //!

@@ -3,10 +3,11 @@
 mod subject;
 
 use declaration::{
-    Declare as _, Description, Enumeration, Experiment, Item, Unit, Variability, Variable, unit,
+    Access, Declare as _, Description, Enumeration, Experiment, Unit, Variability, Variable,
+    choices, unit,
 };
 use model_description::Interface;
-use subject::{Subject, with_row};
+use subject::{Subject, with_row, within};
 
 // Rows of the subject, by position.
 const U: usize = 0;
@@ -94,15 +95,9 @@ fn names_are_unique_under_case_folding_and_structured() {
     refused(&named(TINY, "GAIN"), &["GAIN", "gain"]);
     refused(&named(TINY, "gain"), &["gain"]);
     refused(&named(ENERGY, "energy total"), &["energy total"]);
-    static INNER_TYPE: Enumeration = Enumeration {
-        name: "inner",
-        about: "",
-        items: &[Item {
-            value: 4,
-            name: "only",
-            about: "",
-        }],
-    };
+    choices! { INNER_TYPE "inner" "":
+        4 "only" "";
+    }
     refused(
         &with_row(MODE, |_| Subject::in_mode(&INNER_TYPE)),
         &["inner", "type"],
@@ -126,28 +121,35 @@ fn a_vector_has_i_in_its_name_and_a_scalar_has_not() {
 #[test]
 fn start_values_lie_within_their_bounds() {
     refused(
-        &with_row(GAIN, |row| row.within(0.0, 29.0)),
+        &with_row(GAIN, |row| within(row, 0.0, 29.0)),
         &["gain", "30"],
     );
-    refused(&with_row(GAIN, |row| row.at_least(30.5)), &["gain", "30"]);
     refused(
-        &with_row(DELAY, |row| row.within_integers(1, 2)),
+        &with_row(GAIN, |row| within(row, 30.5, f64::INFINITY)),
+        &["gain", "30"],
+    );
+    refused(
+        &with_row(DELAY, |row| match row.access {
+            Access::Integer { at, .. } => {
+                let (min, max) = (1, 2);
+                let access = Access::Integer { min, max, at };
+                Variable { access, ..row }
+            }
+            _ => row,
+        }),
         &["delay"],
     );
-    refused(&with_row(GAIN, |row| row.within(f64::NAN, 40.0)), &["gain"]);
+    refused(
+        &with_row(GAIN, |row| within(row, f64::NAN, 40.0)),
+        &["gain"],
+    );
     refused(
         &with_row(ENERGY, |row| row.parameter(Variability::Fixed)),
         &["energy.total", "NaN"],
     );
-    static OTHER: Enumeration = Enumeration {
-        name: "Other",
-        about: "",
-        items: &[Item {
-            value: 1,
-            name: "only",
-            about: "",
-        }],
-    };
+    choices! { OTHER "Other" "":
+        1 "only" "";
+    }
     refused(
         &with_row(MODE, |_| Subject::in_mode(&OTHER)),
         &["mode", "4"],
@@ -176,38 +178,14 @@ fn causality_and_variability_must_go_together() {
 
 #[test]
 fn enumerations_ascend_and_units_and_types_have_one_definition() {
-    static DOWN: Enumeration = Enumeration {
-        name: "Down",
-        about: "",
-        items: &[
-            Item {
-                value: 4,
-                name: "a",
-                about: "",
-            },
-            Item {
-                value: 1,
-                name: "b",
-                about: "",
-            },
-        ],
-    };
-    static TWICE: Enumeration = Enumeration {
-        name: "Twice",
-        about: "",
-        items: &[
-            Item {
-                value: 1,
-                name: "a",
-                about: "",
-            },
-            Item {
-                value: 4,
-                name: "A",
-                about: "",
-            },
-        ],
-    };
+    choices! { DOWN "Down" "":
+        4 "a" "";
+        1 "b" "";
+    }
+    choices! { TWICE "Twice" "":
+        1 "a" "";
+        4 "A" "";
+    }
     static EMPTY: Enumeration = Enumeration {
         name: "Empty",
         about: "",
@@ -219,15 +197,9 @@ fn enumerations_ascend_and_units_and_types_have_one_definition() {
             &["mode", of.name],
         );
     }
-    static SECOND_MODE: Enumeration = Enumeration {
-        name: "Mode",
-        about: "",
-        items: &[Item {
-            value: 4,
-            name: "another",
-            about: "",
-        }],
-    };
+    choices! { SECOND_MODE "Mode" "":
+        4 "another" "";
+    }
     let mut rows = Subject::DESCRIPTION.variables.to_vec();
     rows[DELAY] = Variable {
         name: "delay",

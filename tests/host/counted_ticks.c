@@ -1,6 +1,7 @@
-/* The same tick of the C library again and again, for callgrind to count (`cargo xtask bench`): at the start values, with the
- * inputs of the FMUs' start. After some ticks that nobody counts there are 1,000 of the arm, then 1,000 of one axis.
- * `counted_part` ends each part. Exit code 2 when a tick is refused.
+/* Ticks of the C library, for callgrind to count (`cargo xtask bench`): at the start values, with the inputs of the FMUs'
+ * start. After some ticks that nobody counts there are 1,000 of the arm and 1,000 of one axis at rest, then as many of each
+ * with a hand that pushes and a robot that moves. `counted_part` ends each part. Exit code 2 when a tick is refused, 3 when
+ * a moving law exerts no force.
  */
 #include "exo_law.h"
 
@@ -9,6 +10,13 @@ enum { WARM_UP = 100, TICKS = 1000 };
 __attribute__((noinline)) void counted_part(void)
 {
     __asm__ volatile("");
+}
+
+/* A triangle of period 40 and height 1. */
+static double triangle(int n)
+{
+    int phase = n % 40;
+    return (phase < 10 ? phase : phase < 30 ? 20 - phase : phase - 40) / 10.0;
 }
 
 int main(void)
@@ -33,5 +41,21 @@ int main(void)
     counted_part();
     for (int n = 0; n < TICKS; n++) refused |= exo_axis_tick(&axis, &axis_inputs, &axis_outputs, 0);
     counted_part();
-    return refused ? 2 : 0;
+
+    int still = 0;
+    for (int n = 0; n < TICKS; n++) {
+        arm_inputs.q[1] = -1.48096 + 0.002 * triangle(n);
+        for (int i = 0; i < 3; i++) arm_inputs.f_h[i] = 20.0 * triangle(n + 7 * i);
+        refused |= exo_arm_tick(&arm, &arm_inputs, &arm_outputs, 0);
+        still |= n > 0 && arm_outputs.tau_a[1] == 0.0;
+    }
+    counted_part();
+    for (int n = 0; n < TICKS; n++) {
+        axis_inputs.q = 0.002 * triangle(n);
+        axis_inputs.tau_h = 20.0 * triangle(n + 7);
+        refused |= exo_axis_tick(&axis, &axis_inputs, &axis_outputs, 0);
+        still |= n > 0 && axis_outputs.tau_a == 0.0;
+    }
+    counted_part();
+    return refused ? 2 : still ? 3 : 0;
 }

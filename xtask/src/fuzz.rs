@@ -11,17 +11,23 @@ const CALLS: u64 = 20_000;
 const SEED: u64 = 7;
 
 /// What `cargo xtask fuzz` was asked for.
+#[derive(clap::Args)]
 pub struct Request {
-    /// Calls on each FMU.
-    pub calls: u64,
-    /// Seed; `None` draws one from the clock.
-    pub seed: Option<u64>,
-    /// One FMU, or `Lag`; `None` is all.
-    pub fmu: Option<String>,
-    /// Numbers of a sequence to play again.
-    pub replay: Option<String>,
-    /// Under memcheck.
-    pub memcheck: bool,
+    /// Calls on each FMU
+    #[arg(long, default_value_t = 1_000_000)]
+    calls: u64,
+    /// Seed; without it another one at each run, printed
+    #[arg(long)]
+    seed: Option<u64>,
+    /// One FMU by its name, or Lag, the test model; without it all
+    #[arg(long)]
+    fmu: Option<String>,
+    /// Play one sequence: the numbers that a failure has printed
+    #[arg(long)]
+    replay: Option<String>,
+    /// Under valgrind's memcheck, about 30 times slower
+    #[arg(long)]
+    memcheck: bool,
 }
 
 /// The FMUs by name, and the test model.

@@ -111,23 +111,7 @@ enum Command {
         seed: u64,
     },
     /// Play random calls on the FMUs in target/fmu; what fails is shortened and printed with how to play it again
-    Fuzz {
-        /// Calls on each FMU
-        #[arg(long, default_value_t = 1_000_000)]
-        calls: u64,
-        /// Seed; without it another one at each run, printed
-        #[arg(long)]
-        seed: Option<u64>,
-        /// One FMU by its name, or Lag, the test model; without it all
-        #[arg(long)]
-        fmu: Option<String>,
-        /// Play one sequence: the numbers that a failure has printed
-        #[arg(long)]
-        replay: Option<String>,
-        /// Under valgrind's memcheck, about 30 times slower
-        #[arg(long)]
-        memcheck: bool,
-    },
+    Fuzz(fuzz::Request),
     /// Measure: instructions per call (callgrind), FMU calls (cargo bench), harness loop
     Bench {
         /// Count instructions only
@@ -146,7 +130,7 @@ enum Command {
 
 fn main() -> ExitCode {
     let outcome = match Arguments::parse().command {
-        Command::Fmu { bless } => stages::fmu(bless),
+        Command::Fmu { bless } => fmu::build_all(bless),
         Command::Ssp => stages::ssp(),
         Command::Dist { check } => dist::dist(check),
         Command::Test { keep_going } => checks::test(keep_going),
@@ -155,19 +139,7 @@ fn main() -> ExitCode {
         Command::Law { bless } => law::build_all(bless),
         Command::Reproduce => stages::reproduce(),
         Command::Adversary { minutes, seed } => stages::adversary(minutes, seed),
-        Command::Fuzz {
-            calls,
-            seed,
-            fmu,
-            replay,
-            memcheck,
-        } => fuzz::fuzz(&fuzz::Request {
-            calls,
-            seed,
-            fmu,
-            replay,
-            memcheck,
-        }),
+        Command::Fuzz(request) => fuzz::fuzz(&request),
         Command::Bench {
             instructions,
             bless,
@@ -176,7 +148,7 @@ fn main() -> ExitCode {
             None if !instructions && !bless => stages::bench(),
             folder => stages::instructions(folder, bless),
         },
-        Command::Venv => stages::venv(),
+        Command::Venv => venv::Venv::ready().map(|_| ()),
     };
     match outcome {
         Ok(()) => ExitCode::SUCCESS,

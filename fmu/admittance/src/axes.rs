@@ -1,6 +1,6 @@
 //! N axes, without a ledger: what several scalars do at one tick.
 
-use crate::axis::{self, Axis};
+use crate::axis::{Axis, AxisProposal, AxisRequest, AxisSensed, Driven};
 use crate::bounds::Bounds;
 use crate::motion::Sampling;
 use crate::settling::Keep;
@@ -55,20 +55,14 @@ impl<const N: usize> Request<N> {
     }
 
     /// The part of it that is about axis `i`, from 0.
-    fn of(&self, i: usize) -> axis::Request {
-        axis::Request {
+    fn of(&self, i: usize) -> AxisRequest {
+        AxisRequest {
             hold: self.hold,
             damping: self.damping[i],
             speed: self.speed[i],
         }
     }
 }
-
-/// The axes at a tick, once the position is known.
-pub type Sensed<const N: usize> = [axis::Sensed; N];
-
-/// What the axes ask for at a tick. Nothing has happened until it is committed; it may be dropped.
-pub type Proposal<const N: usize> = [axis::Proposal; N];
 
 impl<const N: usize> Axes<N> {
     /// Out of the loop, without bounds.
@@ -120,9 +114,9 @@ impl<const N: usize> Axes<N> {
 impl<const N: usize> Coordinates<N> for Axes<N> {
     type Place = SVector<Real, N>;
     type Request = Request<N>;
-    type Sensed = Sensed<N>;
-    type Proposal = Proposal<N>;
-    type Driven = [axis::Driven; N];
+    type Sensed = [AxisSensed; N];
+    type Proposal = [AxisProposal; N];
+    type Driven = [Driven; N];
 
     fn settings(&self) -> &Settings {
         &self.settings
@@ -133,7 +127,7 @@ impl<const N: usize> Coordinates<N> for Axes<N> {
     }
 
     #[inline]
-    fn sense(&self, q: &SVector<Real, N>) -> Sensed<N> {
+    fn sense(&self, q: &SVector<Real, N>) -> [AxisSensed; N] {
         if self.engaged {
             each(|i| self.axes[i].sense(q[i], &self.settings, &self.sampling))
         } else {
@@ -142,19 +136,19 @@ impl<const N: usize> Coordinates<N> for Axes<N> {
     }
 
     #[inline]
-    fn stored(&self, sensed: &Sensed<N>) -> Real {
+    fn stored(&self, sensed: &[AxisSensed; N]) -> Real {
         sum::<N>(|i| self.axes[i].stored(&sensed[i]))
     }
 
-    fn springs(&self, sensed: &Sensed<N>) -> Real {
+    fn springs(&self, sensed: &[AxisSensed; N]) -> Real {
         sum::<N>(|i| self.axes[i].spring(&sensed[i]))
     }
 
-    fn masses(&self, sensed: &Sensed<N>) -> Real {
+    fn masses(&self, sensed: &[AxisSensed; N]) -> Real {
         sum::<N>(|i| self.axes[i].mass(&sensed[i]))
     }
 
-    fn reduce(&self, sensed: &mut Sensed<N>, keep: Keep) {
+    fn reduce(&self, sensed: &mut [AxisSensed; N], keep: Keep) {
         for axis in sensed {
             axis.reduce(keep.e, keep.v_n);
         }
@@ -163,21 +157,21 @@ impl<const N: usize> Coordinates<N> for Axes<N> {
     #[inline]
     fn propose(
         &self,
-        sensed: &Sensed<N>,
+        sensed: &[AxisSensed; N],
         f_h: &SVector<Real, N>,
         request: &Request<N>,
-    ) -> Proposal<N> {
+    ) -> [AxisProposal; N] {
         let T = self.settings.T;
         each(|i| self.axes[i].propose(&sensed[i], f_h[i], &request.of(i), T))
     }
 
     #[inline]
-    fn f(&self, proposal: &Proposal<N>) -> SVector<Real, N> {
+    fn f(&self, proposal: &[AxisProposal; N]) -> SVector<Real, N> {
         SVector::from_fn(|i, _| self.axes[i].f(&proposal[i]))
     }
 
     #[inline]
-    fn driven(&self, proposal: &Proposal<N>, f: &SVector<Real, N>) -> [axis::Driven; N] {
+    fn driven(&self, proposal: &[AxisProposal; N], f: &SVector<Real, N>) -> [Driven; N] {
         if self.settings.law.row().feels_what_is_delivered() {
             each(|i| self.axes[i].driven(&proposal[i], f[i]))
         } else {
@@ -188,25 +182,25 @@ impl<const N: usize> Coordinates<N> for Axes<N> {
     #[inline]
     fn taken(
         &self,
-        proposal: &Proposal<N>,
-        driven: &[axis::Driven; N],
+        proposal: &[AxisProposal; N],
+        driven: &[Driven; N],
         f: &SVector<Real, N>,
     ) -> Real {
         sum::<N>(|i| self.axes[i].taken(&proposal[i], driven[i], f[i]))
     }
 
     #[inline]
-    fn supplied(&self, proposal: &Proposal<N>, driven: &[axis::Driven; N]) -> Real {
+    fn supplied(&self, proposal: &[AxisProposal; N], driven: &[Driven; N]) -> Real {
         sum::<N>(|i| self.axes[i].supplied(&proposal[i], driven[i]))
     }
 
     #[inline]
-    fn exchanged(&self, proposal: &Proposal<N>, driven: &[axis::Driven; N]) -> Real {
+    fn exchanged(&self, proposal: &[AxisProposal; N], driven: &[Driven; N]) -> Real {
         sum::<N>(|i| self.axes[i].exchanged(&proposal[i], driven[i]))
     }
 
     #[inline]
-    fn show(&self, proposal: &Proposal<N>, driven: &[axis::Driven; N], tick: &mut Tick<N>) {
+    fn show(&self, proposal: &[AxisProposal; N], driven: &[Driven; N], tick: &mut Tick<N>) {
         tick.held = false;
         for i in 0..N {
             tick.f_demand[i] = proposal[i].f_demand();
@@ -219,7 +213,7 @@ impl<const N: usize> Coordinates<N> for Axes<N> {
     }
 
     #[inline]
-    fn commit(&mut self, proposal: &Proposal<N>, driven: &[axis::Driven; N], f: &SVector<Real, N>) {
+    fn commit(&mut self, proposal: &[AxisProposal; N], driven: &[Driven; N], f: &SVector<Real, N>) {
         let slips = self.settings.law.row().slips();
         for i in 0..N {
             self.axes[i].commit(&proposal[i], driven[i], f[i], slips, &self.settings);

@@ -35,7 +35,7 @@ struct Last {
 
 /// One axis at a tick, once the position is known.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Sensed {
+pub struct AxisSensed {
     /// Position, m.
     q: Real,
     /// The robot's velocity, m/s.
@@ -48,7 +48,7 @@ pub struct Sensed {
 
 /// What is asked of one axis at a tick, beside its inputs: its part of [`axes::Request`](crate::axes::Request).
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Request {
+pub struct AxisRequest {
     /// Whether the nominal stays where it is.
     pub hold: bool,
     /// Damping on top of D_n, N·s/m, ≥ 0.
@@ -59,7 +59,7 @@ pub struct Request {
 
 /// What one axis asks for at a tick. Nothing has happened until it is committed.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Proposal {
+pub struct AxisProposal {
     q: Real,
     sample: Sample,
     interval: Interval,
@@ -107,8 +107,8 @@ impl Axis {
 
     /// The axis engages at the position `q` (m): q_n = q, v_n = 0, nothing is known of the motion.
     #[expect(clippy::eq_op, reason = "q_n - q: 0, and no number where q is none")]
-    pub fn engage(&self, q: Real) -> Sensed {
-        Sensed {
+    pub fn engage(&self, q: Real) -> AxisSensed {
+        AxisSensed {
             q,
             dq: 0.0,
             e: self.rule.spring.slipped(q - q),
@@ -118,13 +118,13 @@ impl Axis {
 
     /// The axis in the loop at a tick with position `q` (m): gains on their way take over, the spring slips.
     #[inline]
-    pub fn sense(&self, q: Real, settings: &Settings, sampling: &Sampling) -> Sensed {
+    pub fn sense(&self, q: Real, settings: &Settings, sampling: &Sampling) -> AxisSensed {
         let last = &self.last;
         let (mut e, mut v_n) = (last.q_n - q, last.v_n);
         if let Some(gains) = self.tuning.changed_from() {
             (e, v_n) = retune::taken_over(settings.law, gains, self.tuning.now(), e, v_n);
         }
-        Sensed {
+        AxisSensed {
             q,
             dq: sampling.dq(last.q, last.dq, q),
             e: self.rule.spring.slipped(e),
@@ -134,26 +134,32 @@ impl Axis {
 
     /// Energy stored at this tick, J. 0 for alpha = 0.
     #[inline]
-    pub fn stored(&self, sensed: &Sensed) -> Real {
+    pub fn stored(&self, sensed: &AxisSensed) -> Real {
         self.rule.stored(sensed.e, sensed.v_n)
     }
 
     /// The spring's part of it, J.
-    pub fn spring(&self, sensed: &Sensed) -> Real {
+    pub fn spring(&self, sensed: &AxisSensed) -> Real {
         self.rule.spring.energy(sensed.e)
     }
 
     /// The nominal mass's part of it, J. 0 for alpha = 0.
-    pub fn mass(&self, sensed: &Sensed) -> Real {
+    pub fn mass(&self, sensed: &AxisSensed) -> Real {
         self.rule.mass.energy(sensed.v_n)
     }
 
     /// What the axis asks for with the human's force `f_h` (N): nominal and coupling are solved together, within the
     /// bounds and the `request`.
     #[inline]
-    pub fn propose(&self, sensed: &Sensed, f_h: Real, request: &Request, T: Real) -> Proposal {
+    pub fn propose(
+        &self,
+        sensed: &AxisSensed,
+        f_h: Real,
+        request: &AxisRequest,
+        T: Real,
+    ) -> AxisProposal {
         let rule = &self.rule;
-        let Sensed { q, dq, e, v_n } = *sensed;
+        let AxisSensed { q, dq, e, v_n } = *sensed;
         let sample = Sample {
             e,
             v_n,
@@ -168,7 +174,7 @@ impl Axis {
         if wish.held {
             y = rule.coupling(&sample, wish.v_m);
         }
-        Proposal {
+        AxisProposal {
             q,
             sample,
             interval,
@@ -179,13 +185,13 @@ impl Axis {
 
     /// What the axis asks for within ±f_max, N.
     #[inline]
-    pub fn f(&self, proposal: &Proposal) -> Real {
+    pub fn f(&self, proposal: &AxisProposal) -> Real {
         sat(proposal.f_demand, self.rule.gains.f_max)
     }
 
     /// How a nominal moves that feels the force `f` (N), which the robot gets.
     #[inline]
-    pub fn driven(&self, proposal: &Proposal, f: Real) -> Driven {
+    pub fn driven(&self, proposal: &AxisProposal, f: Real) -> Driven {
         if f == proposal.f_demand {
             return proposal.wish;
         }
@@ -195,19 +201,19 @@ impl Axis {
 
     /// Energy (J) that the law is sure to take in the sample that begins: [`Rule::taken`].
     #[inline]
-    pub fn taken(&self, proposal: &Proposal, driven: Driven, f: Real) -> Real {
+    pub fn taken(&self, proposal: &AxisProposal, driven: Driven, f: Real) -> Real {
         self.rule.taken(&proposal.sample, f, driven.v_m)
     }
 
     /// Energy (K/alpha) f_h v_m T that the human's port brings in the sample that begins, J. 0 for alpha = 0.
     #[inline]
-    pub fn supplied(&self, proposal: &Proposal, driven: Driven) -> Real {
+    pub fn supplied(&self, proposal: &AxisProposal, driven: Driven) -> Real {
         self.rule.supplied(&proposal.sample, driven.v_m)
     }
 
     /// The terms of the energy that passes the coupling in the sample that begins, at their sizes, J.
     #[inline]
-    pub fn exchanged(&self, proposal: &Proposal, driven: Driven) -> Real {
+    pub fn exchanged(&self, proposal: &AxisProposal, driven: Driven) -> Real {
         self.rule.exchanged(&proposal.sample, driven.v_m)
     }
 
@@ -216,7 +222,7 @@ impl Axis {
     #[inline]
     pub fn commit(
         &mut self,
-        proposal: &Proposal,
+        proposal: &AxisProposal,
         driven: Driven,
         f: Real,
         slips: bool,
@@ -255,7 +261,7 @@ impl Driven {
     }
 }
 
-impl Sensed {
+impl AxisSensed {
     /// Gives up energy: the position error and the nominal's velocity are reduced to these fractions, in [0, 1].
     pub fn reduce(&mut self, e: Real, v_n: Real) {
         self.e *= e;
@@ -263,7 +269,7 @@ impl Sensed {
     }
 }
 
-impl Proposal {
+impl AxisProposal {
     /// e_nr = q_n − q at this tick, after the slip, m.
     pub fn e_nr(&self) -> Real {
         self.sample.e

@@ -13,8 +13,10 @@
 
 use crate::parameters::{check, limit};
 use crate::{ParameterError, Real, real};
-use declaration::check::Expected;
 use declaration::range::{FINITE, POSITIVE};
+
+/// What is expected of a largest position.
+const GREATER: &str = "a value greater than the least one";
 
 /// Limits of one axis, infinite where there are none.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -56,12 +58,7 @@ impl Bounds {
         if self.q_min < self.q_max {
             Ok(())
         } else {
-            Err(ParameterError::OutOfRange {
-                name: "q_max",
-                axis,
-                value: self.q_max,
-                expected: Expected::Text("a value greater than the least one"),
-            })
+            Err(ParameterError::of("q_max", axis, self.q_max, GREATER))
         }
     }
 
@@ -104,12 +101,8 @@ pub fn boxed<const N: usize>(
         for (i, bounds) in bounds.iter_mut().enumerate() {
             (bounds.q_min, bounds.q_max) = (q_min[i], q_max[i]);
             if q_min[i] >= q_max[i] {
-                return Err(ParameterError::OutOfRange {
-                    name,
-                    axis: (N > 1).then_some(i + 1),
-                    value: q_max[i],
-                    expected: Expected::Text("a value greater than the least one"),
-                });
+                let axis = (N > 1).then_some(i + 1);
+                return Err(ParameterError::of(name, axis, q_max[i], GREATER));
             }
         }
     }

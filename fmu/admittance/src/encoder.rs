@@ -74,8 +74,7 @@ impl Fault {
 }
 
 const fn item(fault: Fault, about: &'static str) -> Item {
-    let (value, name) = (fault.number(), fault.name());
-    Item { value, name, about }
+    Item::new(fault.number(), fault.name(), about)
 }
 
 /// The type of `encoder.fault`.
@@ -83,11 +82,7 @@ pub const FAULT: Enumeration = Enumeration {
     name: "EncoderFault",
     about: "What is wrong with the sensed positions",
     items: &[
-        Item {
-            value: 0,
-            name: "none",
-            about: "nothing",
-        },
+        Item::new(0, "none", "nothing"),
         item(Fault::NotFinite, "one is NaN or infinite"),
         item(Fault::OverRange, "one lies beyond encoder.range"),
         item(

@@ -148,9 +148,7 @@ impl Law {
         Self::SlidingMode,
     ];
 
-    /// `1 (standard), 2 (passive), …`: all laws.
-    pub const NUMBERED: &str = const { &Text::numbered(&laws!(_ if true)) }.as_str();
-    /// Likewise those that are [offered](Row::offered).
+    /// `1 (standard), 2 (passive), …`: the laws that are [offered](Row::offered).
     pub const OFFERED: &str = const { &Text::numbered(&laws!(row if row.offered)) }.as_str();
     /// Likewise those that have a [servo form](Row::servo).
     pub const WITH_SERVO_FORM: &str = const { &Text::numbered(&laws!(row if row.servo)) }.as_str();

@@ -32,25 +32,19 @@
 //! No force of an environment that the sensor does not see reaches the model. At a wall dq = 0, not even the damper acts,
 //! and q_d runs away as ½ f_h t²/M: it sticks, longer than `standard`.
 
-use crate::comparator::{self, Tick};
-use crate::midpoint::{self, Rule, Sample};
-use crate::motion::Sampling;
+use crate::comparator::{ComparatorTick, Desired};
+use crate::midpoint::Sample;
 use crate::parameters::check;
-use crate::real::{self, floored, sat};
-use crate::{Gains, Motion, ParameterError, Real, Settings};
+use crate::real::{self, sat};
+use crate::{Gains, ParameterError, Real, Settings};
 use declaration::range::POSITIVE;
 
 /// The controller between two ticks.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Natural {
-    settings: Settings,
-    sampling: Sampling,
-    rule: Rule,
+    model: Desired,
     M: Real,
-    q_d: Option<Real>,
-    v_d: Real,
-    motion: Motion,
 }
 
 impl Natural {
@@ -60,18 +54,9 @@ impl Natural {
     /// # Errors
     /// The first parameter out of its range; `M` goes by the name `comparator.M`.
     pub fn new(settings: Settings, gains: Gains, M: Real) -> Result<Self, ParameterError> {
-        comparator::check_sampling(&settings)?;
-        gains.check(None)?;
+        let model = Desired::new(settings, &gains)?;
         check(None, &[("comparator.M", M, POSITIVE)])?;
-        Ok(Self {
-            sampling: Sampling::new(&settings),
-            rule: Rule::new(&settings, &gains),
-            settings,
-            M,
-            q_d: None,
-            v_d: 0.0,
-            motion: Motion::default(),
-        })
+        Ok(Self { model, M })
     }
 
     /// Other gains from the next tick on.
@@ -79,48 +64,28 @@ impl Natural {
     /// # Errors
     /// The first one out of its range; the gains stay as they were.
     pub fn tune(&mut self, gains: Gains) -> Result<(), ParameterError> {
-        gains.check(None)?;
-        self.rule = Rule::new(&self.settings, &gains);
-        Ok(())
+        self.model.tune(&gains)
     }
 
     /// One tick at position `q` (m) with the human's force `f_h` (N); the first one engages with q_d = q, v_d = 0.
-    pub fn step(&mut self, q: Real, f_h: Real) -> Tick {
-        let Gains { D_n, K, f_max, .. } = self.rule.gains;
-        let T = self.settings.T;
-        let dq = self.motion.dq(q, &self.sampling);
-        self.motion = Motion::at(q, dq);
-        let (q_d, v_d) = (self.q_d.unwrap_or(q), self.v_d);
-        let e = q_d - q;
+    pub fn step(&mut self, q: Real, f_h: Real) -> ComparatorTick {
+        let (q_d, sample) = self.model.sense(q, f_h);
+        let Gains { D_n, K, f_max, .. } = self.model.rule.gains;
+        let Sample { v_n: v_d, dq, .. } = sample;
 
         let f_v = -D_n * dq;
-        let sample = Sample {
-            e,
-            v_n: v_d,
-            dq,
-            f_h,
-            damping: 0.0,
-        };
         // Not Rule::driven, which rounds otherwise: nothing on the left damps, so that T is not divided by and taken back.
-        let v_m = v_d + T * (f_h + f_v) / (2.0 * self.M);
-        let f_demand = f_v + K * self.rule.coupling(&sample, v_m);
+        let v_m = v_d + self.model.settings.T * (f_h + f_v) / (2.0 * self.M);
+        let f_demand = f_v + K * self.model.rule.coupling(&sample, v_m);
 
-        self.v_d = floored(midpoint::end(&sample, v_m));
-        self.q_d = Some(q_d + T * v_m);
-        Tick {
-            f: sat(f_demand, f_max),
-            f_demand,
-            q_n: q_d,
-            dq_n: v_d,
-            e_nr: e,
-            dq,
-        }
+        self.model.advance(q_d, &sample, v_m);
+        ComparatorTick::of(q_d, &sample, sat(f_demand, f_max), f_demand)
     }
 
     /// One tick out of the loop at position `q` (m): no force; the next [`step`](Self::step) engages anew.
-    pub fn rest(&mut self, q: Real) -> Tick {
-        (self.q_d, self.v_d, self.motion) = (None, 0.0, Motion::default());
-        Tick::at_rest(q)
+    pub fn rest(&mut self, q: Real) -> ComparatorTick {
+        self.model.rest();
+        ComparatorTick::at_rest(q)
     }
 }
 

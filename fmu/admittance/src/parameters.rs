@@ -83,24 +83,37 @@ pub enum ParameterError {
     UnknownLaw(i32),
 }
 
+impl ParameterError {
+    /// A value out of its range, with what was expected in words. The axis counts from 1.
+    pub const fn of(
+        name: &'static str,
+        axis: Option<usize>,
+        value: Real,
+        expected: &'static str,
+    ) -> Self {
+        Self::OutOfRange {
+            name,
+            axis,
+            value,
+            expected: Expected::Text(expected),
+        }
+    }
+}
+
 impl fmt::Display for ParameterError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match *self {
             Self::OutOfRange {
                 name,
-                axis: None,
+                axis,
                 value,
                 expected,
             } => {
-                write!(f, "{name} = {value}: expected {expected}")
-            }
-            Self::OutOfRange {
-                name,
-                axis: Some(axis),
-                value,
-                expected,
-            } => {
-                write!(f, "{name}[{axis}] = {value}: expected {expected}")
+                f.write_str(name)?;
+                if let Some(axis) = axis {
+                    write!(f, "[{axis}]")?;
+                }
+                write!(f, " = {value}: expected {expected}")
             }
             Self::NotOffered(law) => {
                 write!(
@@ -185,12 +198,7 @@ pub fn check(
             range
         };
         if !range.contains(value.into()) {
-            return Err(ParameterError::OutOfRange {
-                name,
-                axis,
-                value,
-                expected: Expected::Text(range.expected),
-            });
+            return Err(ParameterError::of(name, axis, value, range.expected));
         }
     }
     Ok(())

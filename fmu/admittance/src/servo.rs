@@ -47,7 +47,6 @@ use crate::midpoint::{self, Rule, Sample, slower};
 use crate::motion::Sampling;
 use crate::real::{self, floored};
 use crate::{Gains, Motion, ParameterError, Real, Settings};
-use declaration::check::Expected;
 
 /// The law in servo form between two ticks, one axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -78,7 +77,7 @@ pub struct Energy {
 
 /// What happened at a tick; every value is the one at t_k.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Tick {
+pub struct ServoTick {
     /// Position command of the drive, m: the nominal's in the middle of the sample that begins.
     pub q_d: Real,
     /// Velocity command of the drive, m/s.
@@ -137,14 +136,8 @@ impl Servo {
             ("f_max", gains.f_max, now.f_max),
         ] {
             if value != fixed {
-                return Err(ParameterError::OutOfRange {
-                    name,
-                    axis: None,
-                    value,
-                    expected: Expected::Text(
-                        "the value at the start, in servo form the drive has it too",
-                    ),
-                });
+                let expected = "the value at the start, in servo form the drive has it too";
+                return Err(ParameterError::of(name, None, value, expected));
             }
         }
         self.v_n *= real::sqrt(real::min(now.M_n / gains.M_n, 1.0));
@@ -154,7 +147,7 @@ impl Servo {
 
     /// One tick at position `q` (m), human force `f_h` (N) and `tau_m` (N), the mean of the drive's torque over the sample
     /// that ended; the first tick engages with q_n = q, v_n = 0 and its nominal does not feel `tau_m`.
-    pub fn step(&mut self, q: Real, f_h: Real, tau_m: Real) -> Tick {
+    pub fn step(&mut self, q: Real, f_h: Real, tau_m: Real) -> ServoTick {
         let Self { settings, rule, .. } = *self;
         let T = settings.T;
         let dq = self.motion.dq(q, &self.sampling);
@@ -181,7 +174,7 @@ impl Servo {
         self.v_n = floored(v_next);
         self.q_n = Some(q_n + T * v_m);
         self.energy.supplied = rule.supplied(&sample, v_m);
-        Tick {
+        ServoTick {
             q_d: q_n + T * v_m / 2.0,
             dq_d: v_m,
             q_n,
@@ -194,11 +187,11 @@ impl Servo {
 
     /// One tick out of the loop at position `q` (m), with `tau_m` (N) as in [`step`](Self::step): the drive is told to
     /// stand still there, and what it does meanwhile is booked. The stored energy is given up; the next step engages anew.
-    pub fn rest(&mut self, q: Real, tau_m: Real) -> Tick {
+    pub fn rest(&mut self, q: Real, tau_m: Real) -> ServoTick {
         (self.q_n, self.v_n, self.motion) = (None, 0.0, Motion::default());
         self.settle(q, 0.0, tau_m);
         self.energy.supplied = 0.0;
-        Tick {
+        ServoTick {
             q_d: q,
             dq_d: 0.0,
             q_n: q,

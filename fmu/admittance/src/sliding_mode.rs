@@ -32,26 +32,19 @@
 //! The admittance proxy feels nothing of the robot: at a wall it runs away and the robot sticks, as under `standard`.
 //! The 2014 controller shapes the surface s further, for a faster return; the proxy outside it is the same.
 
-use crate::comparator::{self, Tick};
-use crate::midpoint::{self, Rule, Sample};
-use crate::motion::Sampling;
+use crate::comparator::{ComparatorTick, Desired};
 use crate::parameters::check;
 use crate::real::{floored, sat};
-use crate::{Gains, Motion, ParameterError, Real, Settings};
+use crate::{Gains, ParameterError, Real, Settings};
 use declaration::range::NOT_NEGATIVE;
 
 /// The controller between two ticks.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SlidingMode {
-    settings: Settings,
-    sampling: Sampling,
-    rule: Rule,
+    proxy: Desired,
     H: Real,
-    q_n: Option<Real>,
-    v_n: Real,
     b: Real,
-    motion: Motion,
 }
 
 impl SlidingMode {
@@ -61,19 +54,9 @@ impl SlidingMode {
     /// # Errors
     /// The first parameter out of its range; `H` goes by the name `comparator.H`.
     pub fn new(settings: Settings, gains: Gains, H: Real) -> Result<Self, ParameterError> {
-        comparator::check_sampling(&settings)?;
-        gains.check(None)?;
+        let proxy = Desired::new(settings, &gains)?;
         check(None, &[("comparator.H", H, NOT_NEGATIVE)])?;
-        Ok(Self {
-            sampling: Sampling::new(&settings),
-            rule: Rule::new(&settings, &gains),
-            settings,
-            H,
-            q_n: None,
-            v_n: 0.0,
-            b: 0.0,
-            motion: Motion::default(),
-        })
+        Ok(Self { proxy, H, b: 0.0 })
     }
 
     /// Other gains from the next tick on.
@@ -81,51 +64,32 @@ impl SlidingMode {
     /// # Errors
     /// The first one out of its range; the gains stay as they were.
     pub fn tune(&mut self, gains: Gains) -> Result<(), ParameterError> {
-        gains.check(None)?;
-        self.rule = Rule::new(&self.settings, &gains);
-        Ok(())
+        self.proxy.tune(&gains)
     }
 
     /// One tick at position `q` (m) with the human's force `f_h` (N); the first one engages with q_n = q, v_n = 0, b = 0.
-    pub fn step(&mut self, q: Real, f_h: Real) -> Tick {
-        let Gains { K, K_P, f_max, .. } = self.rule.gains;
-        let (T, H) = (self.settings.T, self.H);
-        let dq = self.motion.dq(q, &self.sampling);
-        self.motion = Motion::at(q, dq);
-        let (q_n, v_n) = (self.q_n.unwrap_or(q), self.v_n);
+    pub fn step(&mut self, q: Real, f_h: Real) -> ComparatorTick {
+        let (q_n, sample) = self.proxy.sense(q, f_h);
+        let Gains { K, K_P, f_max, .. } = self.proxy.rule.gains;
+        let (T, H) = (self.proxy.settings.T, self.H);
 
-        let sample = Sample {
-            e: q_n - q,
-            v_n,
-            dq,
-            f_h,
-            damping: 0.0,
-        };
-        let v_m = self.rule.driven(&sample, 0.0); // no reaction
-        let de = v_m - dq;
-        let e = q_n - q + T * de / 2.0;
+        let v_m = self.proxy.rule.driven(&sample, 0.0); // no reaction
+        let de = v_m - sample.dq;
+        let e = sample.e + T * de / 2.0;
         let b_slide = (T * (e + H * de) + H * self.b) / (T + H);
         let f_demand = K * ((b_slide - self.b) / T + K_P * b_slide);
         let f = sat(f_demand, f_max);
 
         self.b = floored((self.b + T * f / K) / (1.0 + K_P * T));
-        self.v_n = floored(midpoint::end(&sample, v_m));
-        self.q_n = Some(q_n + T * v_m);
-        Tick {
-            f,
-            f_demand,
-            q_n,
-            dq_n: v_n,
-            e_nr: sample.e,
-            dq,
-        }
+        self.proxy.advance(q_n, &sample, v_m);
+        ComparatorTick::of(q_n, &sample, f, f_demand)
     }
 
     /// One tick out of the loop at position `q` (m): no force; the next [`step`](Self::step) engages anew.
-    pub fn rest(&mut self, q: Real) -> Tick {
-        (self.q_n, self.v_n, self.b) = (None, 0.0, 0.0);
-        self.motion = Motion::default();
-        Tick::at_rest(q)
+    pub fn rest(&mut self, q: Real) -> ComparatorTick {
+        self.proxy.rest();
+        self.b = 0.0;
+        ComparatorTick::at_rest(q)
     }
 
     /// b = p − q, how far the inner proxy is ahead of the robot, m.

@@ -20,7 +20,7 @@ fn servo(law: Law, gains: Gains) -> Servo {
 }
 
 /// A drive with the law's own loop, nearly continuous, on a mass. Returns its mean force over the sample.
-fn drive(mass: &mut Mass, tick: &servo::Tick, gains: &Gains, f_h: f64) -> f64 {
+fn drive(mass: &mut Mass, tick: &servo::ServoTick, gains: &Gains, f_h: f64) -> f64 {
     let mut mean = 0.0;
     for _ in 0..SUBSTEPS {
         let tau = gains.K * ((tick.dq_d - mass.dq) + gains.K_P * (tick.q_d - mass.q));

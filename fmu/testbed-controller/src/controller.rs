@@ -3,7 +3,6 @@
 use crate::rows::{Comparator, POSITION_SERVO};
 use admittance::one_axis::{AxisInputs, AxisOutputs, AxisParameters, Checked, NotFinite, OneAxis};
 use admittance::{Law, Natural, ParameterError, Servo, SlidingMode, comparator, servo};
-use declaration::check::Expected;
 use serde::{Deserialize, Serialize};
 
 /// The controller between two ticks.
@@ -153,20 +152,14 @@ fn check_no_limits(parameters: &AxisParameters) -> Result<(), ParameterError> {
         ),
     ] {
         if is_set {
-            return Err(ParameterError::OutOfRange {
-                name,
-                axis: None,
-                value,
-                expected: Expected::Text(
-                    "no limit, which the laws 1 to 4 in torque form alone keep",
-                ),
-            });
+            let expected = "no limit, which the laws 1 to 4 in torque form alone keep";
+            return Err(ParameterError::of(name, None, value, expected));
         }
     }
     Ok(())
 }
 
-fn in_servo_form(tick: &servo::Tick, energy: &servo::Energy, engaged: bool) -> AxisOutputs {
+fn in_servo_form(tick: &servo::ServoTick, energy: &servo::Energy, engaged: bool) -> AxisOutputs {
     AxisOutputs {
         q_n: tick.q_n,
         dq_n: tick.dq_n,
@@ -182,7 +175,7 @@ fn in_servo_form(tick: &servo::Tick, energy: &servo::Energy, engaged: bool) -> A
 }
 
 /// What a comparator shows. It has no storage and no tank: H, G and the tank are 0.
-fn compared(tick: &comparator::Tick, engaged: bool) -> AxisOutputs {
+fn compared(tick: &comparator::ComparatorTick, engaged: bool) -> AxisOutputs {
     AxisOutputs {
         tau_a: tick.f,
         tau_demand: tick.f_demand,

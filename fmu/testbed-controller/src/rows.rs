@@ -3,32 +3,14 @@
 use crate::controller::Controller;
 use admittance::encoder::Age;
 use admittance::one_axis::{AxisInputs, AxisOutputs, AxisParameters};
-use declaration::{Declare, Description, Enumeration, Experiment, Item, Rows, Start, Stepping};
+use declaration::{Declare, Description, Experiment, Rows, Start, Stepping, choices};
 use export::Ticks;
 use serde::{Deserialize, Serialize};
 
-/// `form`: the robot gets a force.
-pub const TORQUE: i32 = 1;
-/// `form`: the robot gets position and velocity, for a drive that closes the loop itself.
-pub const POSITION_SERVO: i32 = 2;
-
-/// The type of `form`.
-pub const FORM: Enumeration = Enumeration {
-    name: "Form",
-    about: "What the robot gets from the controller",
-    items: &[
-        Item {
-            value: TORQUE,
-            name: "torque",
-            about: "the force tau_a",
-        },
-        Item {
-            value: POSITION_SERVO,
-            name: "position_servo",
-            about: "q_d and dq_d, for a drive that closes the loop with K and K_P itself; needs tau_a_measured",
-        },
-    ],
-};
+choices! { FORM "Form" "What the robot gets from the controller":
+    TORQUE = 1 "torque" "the force tau_a";
+    POSITION_SERVO = 2 "position_servo" "q_d and dq_d, for a drive that closes the loop with K and K_P itself; needs tau_a_measured";
+}
 
 /// The controller: its variables, and its state.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, Rows, Start)]

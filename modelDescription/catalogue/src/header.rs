@@ -1,10 +1,19 @@
 //! The C header of the law's library, made by cbindgen from `fmu/c/src`.
 
 use crate::root;
-use arm_law::choices;
-use declaration::Enumeration;
-use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
+use admittance::hand::StiffHand;
+use admittance::one_axis::{AxisInputs, AxisOutputs, AxisParameters};
+use arm_law::joint_space::JointSettings;
+use arm_law::kinematics::Kinematics;
+use arm_law::nominal::{Link, NominalArm};
+use arm_law::singularity::Singularity;
+use arm_law::supervision::Parameters;
+use arm_law::wrench::{Sensor, Tool, tare::TareSettings, validity::Checks};
+use arm_law::{ArmInputs, ArmOutputs, ArmParameters};
+use declaration::unit::NONE;
+use declaration::{Access, Item, Rows};
+use std::collections::{BTreeMap, HashMap};
+use std::path::PathBuf;
 
 /// The header's committed place.
 pub fn committed() -> PathBuf {
@@ -20,6 +29,7 @@ pub fn header() -> Result<String, String> {
     let found = |error: &dyn std::fmt::Display| format!("cbindgen: {error}");
     let config =
         cbindgen::Config::from_file(source.join("cbindgen.toml")).map_err(|error| found(&error))?;
+    let renamed = config.export.rename.clone();
     let bindings = cbindgen::Builder::new()
         .with_config(config)
         .with_src(source.join("../admittance/src/lib.rs"))
@@ -30,79 +40,54 @@ pub fn header() -> Result<String, String> {
     let mut text = Vec::new();
     bindings.write(&mut text);
     let text = String::from_utf8(text).map_err(|error| found(&error))?;
-    let config = std::fs::read_to_string(source.join("cbindgen.toml")).map_err(|e| found(&e))?;
-    Ok(with_units(&text, &config, &units(&source)?))
+    Ok(with_units(&text, &renamed))
 }
 
-/// The choices of the law, by the names of their constants.
-const CHOICES: [(&str, Enumeration); 11] = [
-    ("LAW", admittance::law::LAW),
-    ("OFFERED_LAW", admittance::law::OFFERED_LAW),
-    ("TORQUE_LIMITING", choices::TORQUE_LIMITING),
-    ("FRAME", choices::FRAME),
-    ("SOURCE", choices::SOURCE),
-    ("FAULT", choices::FAULT),
-    ("TARE_STATE", choices::TARE_STATE),
-    ("TARE_FAILURE", choices::TARE_FAILURE),
-    ("STATE", choices::STATE),
-    ("DIAGNOSTIC", choices::DIAGNOSTIC),
-    ("SPACE", choices::SPACE),
-];
-
-/// What the rows say of a value: a unit, an item of a choice, or a Boolean.
-fn meaning(word: &str) -> Option<String> {
-    let unit = |name: &str| {
-        Some(
-            declaration::unit::ALL
-                .iter()
-                .find(|(unit, _)| *unit == name)?
-                .1,
-        )
-    };
-    if word == "boolean" {
-        return Some("0 or 1".to_owned());
-    }
-    match CHOICES.iter().find(|(name, _)| *name == word) {
-        Some((_, of)) => {
-            let items = of
-                .items
-                .iter()
-                .map(|item| format!("{} {}", item.value, item.name));
-            Some(items.collect::<Vec<_>>().join(", "))
+/// What a row says of its value beside the description: a unit, the items of a choice, or a Boolean.
+fn meaning(access: &Access<impl Sized>) -> Option<String> {
+    match access {
+        Access::Real { unit, .. } => (*unit != NONE).then(|| unit.name.to_owned()),
+        Access::Boolean { .. } => Some("0 or 1".to_owned()),
+        Access::Enumeration { of, .. } => {
+            let item = |item: &Item| format!("{} {}", item.value, item.name);
+            Some(of.items.iter().map(item).collect::<Vec<_>>().join(", "))
         }
-        None => unit(word).map(|unit| unit.name.to_owned()),
+        Access::Integer { .. } | Access::String { .. } => None,
     }
 }
 
-/// Unit, choice or Boolean of each field, by struct and field, as the rows in the sources say it: cbindgen keeps their
-/// descriptions only.
-fn units(source: &Path) -> Result<BTreeMap<(String, String), String>, String> {
+/// The meaning of each field, by struct and field: cbindgen keeps the descriptions only.
+fn meanings() -> BTreeMap<(&'static str, &'static str), String> {
     let mut found = BTreeMap::new();
-    for folder in ["../admittance/src", "../arm-law/src"] {
-        for file in rust_files(&source.join(folder)) {
-            let text = std::fs::read_to_string(&file).map_err(|e| format!("{file:?}: {e}"))?;
-            let (mut of, mut attribute) = (String::new(), String::new());
-            for line in text.lines().map(str::trim) {
-                if let Some(rest) = line.strip_prefix("pub struct ") {
-                    of = word(rest);
-                }
-                if line.starts_with("#[") {
-                    attribute.clear();
-                }
-                if let Some(rest) = line.strip_prefix("pub ").filter(|_| line.contains(':')) {
-                    let after = |key: &str| Some(word(attribute.split_once(key)?.1));
-                    let boolean = attribute.contains("boolean").then(|| "boolean".to_owned());
-                    if let Some(what) = after("unit = ").or_else(|| after("items = ")).or(boolean) {
-                        found.insert((of.clone(), word(rest)), what);
-                    }
-                    attribute.clear();
-                } else {
-                    attribute += line;
+    macro_rules! rows_of {
+        ($($Struct:ident),*) => {$(
+            for row in $Struct::ROWS {
+                if let Some(what) = meaning(&row.access) {
+                    found.insert((stringify!($Struct), row.field), what);
                 }
             }
-        }
+        )*};
     }
-    Ok(found)
+    rows_of!(
+        AxisParameters,
+        AxisInputs,
+        AxisOutputs,
+        ArmParameters,
+        ArmInputs,
+        ArmOutputs
+    );
+    rows_of!(
+        Kinematics,
+        Singularity,
+        StiffHand,
+        Sensor,
+        Tool,
+        Checks,
+        TareSettings,
+        Parameters
+    );
+    rows_of!(JointSettings, NominalArm, Link);
+    found
 }
 
 /// The name at the begin of `text`.
@@ -111,34 +96,13 @@ fn word(text: &str) -> String {
     text.chars().take_while(is_part).collect()
 }
 
-fn rust_files(folder: &Path) -> Vec<PathBuf> {
-    let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
-    let mut files: Vec<_> = entries
-        .map(|entry| entry.path())
-        .flat_map(|path| {
-            if path.is_dir() {
-                rust_files(&path)
-            } else {
-                vec![path]
-            }
+/// The header with each field's unit behind it. The structs are `renamed` in C.
+fn with_units(text: &str, renamed: &HashMap<String, String>) -> String {
+    let units: BTreeMap<_, _> = meanings()
+        .into_iter()
+        .filter_map(|((of, field), what)| {
+            Some(((renamed.get(of)?.clone(), field.to_owned()), what))
         })
-        .collect();
-    files.sort();
-    files
-}
-
-/// The header with each field's unit behind it.
-fn with_units(text: &str, config: &str, units: &BTreeMap<(String, String), String>) -> String {
-    // What cbindgen calls a struct: `Kinematics = "exo_arm_kinematics"`.
-    let renamed = |of: &str| {
-        let line = config
-            .lines()
-            .find(|line| line.split(" = ").next() == Some(of))?;
-        Some(line.split('"').nth(1)?.to_owned())
-    };
-    let units: BTreeMap<_, _> = units
-        .iter()
-        .filter_map(|((of, field), what)| Some(((renamed(of)?, field.clone()), meaning(what)?)))
         .collect();
     let mut of = String::new();
     let mut lines = Vec::new();
@@ -176,6 +140,22 @@ mod tests {
             "  int32_t engage; // 0 or 1",
         ] {
             assert!(text.lines().any(|found| found == line), "{line}");
+        }
+    }
+
+    #[test]
+    fn each_struct_of_a_law_but_its_memory_says_what_its_fields_mean() {
+        let text = header().unwrap_or_else(|error| panic!("{error}"));
+        let mut structs: Vec<_> = text.split("typedef struct ").skip(1).collect();
+        structs.retain(|of| of.starts_with("exo_a") && !word(of).ends_with("_state"));
+        assert!(structs.len() > 15, "{}", structs.len());
+        for of in structs {
+            let fields = of.split_once('}').map_or("", |(fields, _)| fields);
+            assert!(
+                fields.contains("; // "),
+                "{}: not in the list of this file",
+                word(of)
+            );
         }
     }
 

@@ -34,8 +34,7 @@
 //! assert_eq!(Lag::default().tau, 0.5);
 //! ```
 //!
-//! A row may also be written without the derive, where several rows show one field or a field cannot bear an attribute: the
-//! macros [`real!`], [`integer!`], [`boolean!`], [`string!`], [`enumeration!`].
+//! The items of a choice are declared by [`choices!`].
 //!
 //! | module | what |
 //! |---|---|

@@ -89,31 +89,3 @@ pub const SECOND: Unit = unit("s", 0, 0, 1, 0);
 pub const PER_SECOND: Unit = unit("1/s", 0, 0, -1, 0);
 /// hertz
 pub const HERTZ: Unit = unit("Hz", 0, 0, -1, 0);
-
-/// All of them, by the names of their constants.
-pub const ALL: &[(&str, Unit)] = &[
-    ("NONE", NONE),
-    ("METRE", METRE),
-    ("METRE_PER_SECOND", METRE_PER_SECOND),
-    ("METRE_PER_SECOND_SQUARED", METRE_PER_SECOND_SQUARED),
-    ("RADIAN", RADIAN),
-    ("RADIAN_PER_SECOND", RADIAN_PER_SECOND),
-    ("RADIAN_PER_SECOND_SQUARED", RADIAN_PER_SECOND_SQUARED),
-    ("METRE_PER_RADIAN", METRE_PER_RADIAN),
-    ("KILOGRAM", KILOGRAM),
-    ("KILOGRAM_SQUARE_METRE", KILOGRAM_SQUARE_METRE),
-    ("NEWTON", NEWTON),
-    ("NEWTON_METRE", NEWTON_METRE),
-    ("NEWTON_METRE_PER_SECOND", NEWTON_METRE_PER_SECOND),
-    (
-        "NEWTON_METRE_SECOND_PER_RADIAN",
-        NEWTON_METRE_SECOND_PER_RADIAN,
-    ),
-    ("NEWTON_PER_SECOND", NEWTON_PER_SECOND),
-    ("NEWTON_PER_METRE", NEWTON_PER_METRE),
-    ("NEWTON_SECOND_PER_METRE", NEWTON_SECOND_PER_METRE),
-    ("JOULE", JOULE),
-    ("SECOND", SECOND),
-    ("PER_SECOND", PER_SECOND),
-    ("HERTZ", HERTZ),
-];

@@ -143,6 +143,8 @@ pub struct Variable<M: 'static> {
     pub prefix: &'static str,
     /// Name, the paper's symbol where there is one.
     pub name: &'static str,
+    /// Name of the field, where the derive has written the row of the struct that has it; empty elsewhere.
+    pub field: &'static str,
     /// Number of scalars.
     pub len: usize,
     /// Type and place.
@@ -182,6 +184,7 @@ impl<M> Variable<M> {
             number: IN_ORDER,
             prefix: "",
             name,
+            field: "",
             len,
             access,
             causality: Causality::Local,
@@ -195,6 +198,13 @@ impl<M> Variable<M> {
     /// With a number, which must stay when others come: it decides the value reference.
     pub const fn numbered(mut self, number: u32) -> Self {
         self.number = number;
+        self
+    }
+
+    /// Of the struct's field with this name.
+    #[doc(hidden)]
+    pub const fn of_field(mut self, field: &'static str) -> Self {
+        self.field = field;
         self
     }
 
@@ -255,47 +265,6 @@ impl<M> Variable<M> {
         self
     }
 
-    /// What a Real may be; a Set outside of it is refused.
-    ///
-    /// # Panics
-    /// When the row is not a Real (at compile time: rows are constants).
-    pub const fn range(mut self, range: Range) -> Self {
-        self.access = match self.access {
-            Access::Real { unit, at, .. } => Access::Real { unit, range, at },
-            _ => panic!("a range is for Real rows"),
-        };
-        self
-    }
-
-    /// Bounds of a Real, both included; a Set outside of them is refused.
-    ///
-    /// # Panics
-    /// When the row is not a Real (at compile time: rows are constants).
-    pub const fn within(self, low: f64, high: f64) -> Self {
-        self.range(Range::new(low, high, "a finite value within its bounds"))
-    }
-
-    /// Lower bound of a Real, included.
-    pub const fn at_least(self, low: f64) -> Self {
-        self.within(low, f64::INFINITY)
-    }
-
-    /// Bounds of an Integer, both included.
-    ///
-    /// # Panics
-    /// When the row is not an Integer (at compile time: rows are constants).
-    pub const fn within_integers(mut self, low: i32, high: i32) -> Self {
-        self.access = match self.access {
-            Access::Integer { at, .. } => Access::Integer {
-                min: low,
-                max: high,
-                at,
-            },
-            _ => panic!("within_integers() is for Integer rows"),
-        };
-        self
-    }
-
     /// The name with its prefix; `[i]` stands for the element.
     #[cfg(feature = "std")]
     pub fn full_name(&self) -> String {
@@ -317,22 +286,6 @@ impl<M> Variable<M> {
     /// The value of element `i`, from 0, if the row is of this type.
     pub fn value<V: Of<M>>(&self, model: &M, i: usize) -> Option<V> {
         V::of(&self.access).map(|at| at.get(model, i))
-    }
-
-    /// Declares an enumeration as such instead of as an Integer.
-    ///
-    /// # Panics
-    /// When the row is not an enumeration (at compile time: rows are constants).
-    pub const fn typed(mut self) -> Self {
-        self.access = match self.access {
-            Access::Enumeration { of, at, .. } => Access::Enumeration {
-                of,
-                declared: Declared::Enumeration,
-                at,
-            },
-            _ => panic!("typed() is for enumerations"),
-        };
-        self
     }
 
     /// Whether the importer may still set it during the run.

@@ -2,24 +2,12 @@
 #![allow(non_snake_case, reason = "symbols as in the paper: H")]
 
 use declaration::check::{self, Expected};
-use declaration::{Access, Causality, Enumeration, Item, Rows, Start, Variability, unit};
+use declaration::{Access, Causality, Rows, Start, Variability, choices, unit};
 
-static MODE: Enumeration = Enumeration {
-    name: "Mode",
-    about: "what it does",
-    items: &[
-        Item {
-            value: 1,
-            name: "idle",
-            about: "nothing",
-        },
-        Item {
-            value: 4,
-            name: "busy",
-            about: "something",
-        },
-    ],
-};
+choices! { MODE "Mode" "what it does":
+    1 "idle" "nothing";
+    4 "busy" "something";
+}
 
 #[derive(Rows, Start)]
 struct Link {

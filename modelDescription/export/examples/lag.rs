@@ -2,27 +2,15 @@
 //!
 //! It is also the subject of the tests of the C interface (`tests/abi`), as a shared library.
 
-use declaration::{Declare, Description, Enumeration, Experiment, Item, Rows, Start, Stepping};
+use declaration::{Declare, Description, Experiment, Rows, Start, Stepping, choices};
 use export::{Log, Model, Refusal, Step};
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 
-static METHOD: Enumeration = Enumeration {
-    name: "Method",
-    about: "How the lag is integrated",
-    items: &[
-        Item {
-            value: 1,
-            name: "exact",
-            about: "exponential",
-        },
-        Item {
-            value: 2,
-            name: "implicit_euler",
-            about: "implicit Euler",
-        },
-    ],
-};
+choices! { METHOD "Method" "How the lag is integrated":
+    1 "exact" "exponential";
+    2 "implicit_euler" "implicit Euler";
+}
 
 /// tau dy/dt = gain·u − y
 #[derive(Clone, Serialize, Deserialize, Rows, Start)]

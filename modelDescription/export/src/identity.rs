@@ -58,14 +58,14 @@ impl Identity {
 mod tests {
     use super::*;
     use crate::{Log, Refusal, Step};
-    use declaration::Variability::Continuous;
-    use declaration::{Declare, Description, Experiment, Stepping, real, unit};
+    use declaration::{Declare, Description, Experiment, Rows, Start, Stepping};
     use serde::{Deserialize, Serialize};
 
     macro_rules! model {
         ($name:ident) => {
-            #[derive(Clone, Default, Serialize, Deserialize)]
+            #[derive(Clone, Serialize, Deserialize, Rows, Start)]
             struct $name {
+                #[output(0)]
                 x: f64,
             }
 
@@ -80,7 +80,7 @@ mod tests {
                         tolerance: 1e-6,
                         step: 0.1,
                     },
-                    variables: &[real!(x, unit::NONE).output(Continuous)],
+                    variables: Self::ROWS,
                 };
             }
 

@@ -3,8 +3,8 @@
 
 use declaration::unit::{Base, Display};
 use declaration::{
-    Declare, Description, Enumeration, Experiment, Item, Rows, Start, Stepping, Unit,
-    Variability::*, Variable, enumeration, real,
+    Access, Declare, Description, Enumeration, Experiment, Range, Rows, Start, Stepping, Unit,
+    Variable, choices,
 };
 use std::collections::BTreeMap;
 
@@ -22,22 +22,10 @@ pub const RADIAN: Unit = Unit {
     }),
 };
 
-pub static MODE: Enumeration = Enumeration {
-    name: "Mode",
-    about: "what \"it\" does",
-    items: &[
-        Item {
-            value: 1,
-            name: "idle",
-            about: "nothing",
-        },
-        Item {
-            value: 4,
-            name: "busy",
-            about: "x < y & z",
-        },
-    ],
-};
+choices! { MODE "Mode" "what \"it\" does":
+    1 "idle" "nothing";
+    4 "busy" "x < y & z";
+}
 
 #[derive(Clone, Debug, Rows, Start)]
 pub struct Energy {
@@ -111,13 +99,33 @@ impl Declare for Subject {
 impl Subject {
     /// The row `mode`, of another enumeration type.
     pub fn in_mode(of: &'static Enumeration) -> Variable<Self> {
-        enumeration!(mode, of).typed().parameter(Fixed).numbered(10)
+        let row = Self::DESCRIPTION.variables[10];
+        let Access::Enumeration { declared, at, .. } = row.access else {
+            panic!("{} is no choice", row.name);
+        };
+        let access = Access::Enumeration { of, declared, at };
+        Variable { access, ..row }
     }
 
     /// The row `inner`, in another unit.
     pub fn in_unit(unit: Unit) -> Variable<Self> {
-        real!(inner, unit).local(Discrete).numbered(12)
+        let row = Self::DESCRIPTION.variables[12];
+        let Access::Real { range, at, .. } = row.access else {
+            panic!("{} is no Real", row.name);
+        };
+        let access = Access::Real { unit, range, at };
+        Variable { access, ..row }
     }
+}
+
+/// A row of a Real with other bounds.
+pub fn within(row: Variable<Subject>, low: f64, high: f64) -> Variable<Subject> {
+    let Access::Real { unit, at, .. } = row.access else {
+        panic!("{} is no Real", row.name);
+    };
+    let range = Range::new(low, high, "a finite value within its bounds");
+    let access = Access::Real { unit, range, at };
+    Variable { access, ..row }
 }
 
 /// The subject's description with one row replaced.

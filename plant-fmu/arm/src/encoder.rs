@@ -1,34 +1,14 @@
 //! The encoders of the joints.
 
 use core::f64::consts::PI;
-use declaration::{Enumeration, Item, Rows, Start};
+use declaration::{Rows, Start, choices};
 use serde::{Deserialize, Serialize};
 
-/// `encoder.kind`: reads the true angle.
-pub const IDEAL: i32 = 1;
-/// `encoder.kind`: counts on the motor's shaft, before the gear.
-pub const MOTOR: i32 = 2;
-/// `encoder.kind`: bits on the joint, behind the gear.
-pub const JOINT: i32 = 3;
-
-/// The type of `encoder.kind`.
-pub const ENCODER: Enumeration = Enumeration {
-    name: "EncoderKind",
-    about: "Where the encoders sit",
-    items: &[
-        Item::new(IDEAL, "ideal", "reads the true angle"),
-        Item::new(
-            MOTOR,
-            "motor",
-            "on the motor's shaft: encoder.counts times the gear ratio per revolution of the joint",
-        ),
-        Item::new(
-            JOINT,
-            "joint",
-            "on the joint: 2 to the power of encoder.bits per revolution",
-        ),
-    ],
-};
+choices! { ENCODER "EncoderKind" "Where the encoders sit":
+    IDEAL = 1 "ideal" "reads the true angle";
+    MOTOR = 2 "motor" "on the motor's shaft: encoder.counts times the gear ratio per revolution of the joint";
+    JOINT = 3 "joint" "on the joint: 2 to the power of encoder.bits per revolution";
+}
 
 /// An encoder on each joint. It has no clock: it shows the count of the instant. At the start ideal, as in the paper's
 /// experiments; 2000 counts or 17 bit otherwise.

@@ -1,61 +1,27 @@
 //! The force sensor in the handle: it sees the human's force alone, in its own frame, at its own clock.
 
 use crate::noise::normal;
-use declaration::{Enumeration, Item, Rows, Start};
+use declaration::{Rows, Start, choices};
 use export::Step;
 use mechanics::arm::kinematics::Pose;
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-/// `ft.frame`: the reading is given in the base frame.
-pub const BASE: i32 = 1;
-/// `ft.frame`: the reading is given in link 3's frame.
-pub const SENSOR: i32 = 2;
+choices! { FRAME "Frame" "Frame in which the force sensor's components are given":
+    BASE = 1 "base" "base frame: x forward, y to the left, z up";
+    SENSOR = 2 "sensor" "link 3's frame: x along the link, z up when the link is level; it turns with the link";
+}
 
-/// `ft.failure`: none.
-pub const NONE: i32 = 1;
-/// `ft.failure`: shows its last sound reading for ever.
-pub const STUCK: i32 = 2;
-/// `ft.failure`: shows NaN.
-pub const NAN: i32 = 3;
-/// `ft.failure`: shows the end of its range, on the side of the force.
-pub const OVER_RANGE: i32 = 4;
-/// `ft.failure`: shows zero.
-pub const DROPOUT: i32 = 5;
+choices! { FAILURE "ForceSensorFailure" "How the force sensor fails":
+    NONE = 1 "none" "it does not";
+    STUCK = 2 "stuck" "shows its last sound reading for ever";
+    NAN = 3 "nan" "shows NaN on all axes";
+    OVER_RANGE = 4 "over_range" "shows the end of its range on all axes, on the side of the force";
+    DROPOUT = 5 "dropout" "shows 0 on all axes";
+}
 
 /// A sample within this share of the period of a step's end belongs to the step: importers' times carry rounding.
 const SAME_INSTANT: f64 = 1e-3;
-
-/// The type of `ft.frame`.
-pub const FRAME: Enumeration = Enumeration {
-    name: "Frame",
-    about: "Frame in which the force sensor's components are given",
-    items: &[
-        Item::new(BASE, "base", "base frame: x forward, y to the left, z up"),
-        Item::new(
-            SENSOR,
-            "sensor",
-            "link 3's frame: x along the link, z up when the link is level; it turns with the link",
-        ),
-    ],
-};
-
-/// The type of `ft.failure`.
-pub const FAILURE: Enumeration = Enumeration {
-    name: "ForceSensorFailure",
-    about: "How the force sensor fails",
-    items: &[
-        Item::new(NONE, "none", "it does not"),
-        Item::new(STUCK, "stuck", "shows its last sound reading for ever"),
-        Item::new(NAN, "nan", "shows NaN on all axes"),
-        Item::new(
-            OVER_RANGE,
-            "over_range",
-            "shows the end of its range on all axes, on the side of the force",
-        ),
-        Item::new(DROPOUT, "dropout", "shows 0 on all axes"),
-    ],
-};
 
 /// What the sensor is like. At the start perfect, sampled at 1 kHz.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, Rows, Start)]

@@ -1,34 +1,16 @@
 //! The variables, one row each: those of the mechanics, and what the FMU has besides. A row's number decides its value
 //! reference: new ones take the next.
 
-use declaration::{Declare, Description, Enumeration, Experiment, Item, Rows, Start, Stepping};
+use declaration::{Declare, Description, Experiment, Rows, Start, Stepping, choices};
 use mechanics::Energy;
 use mechanics::drive::{Command, Drive};
 use mechanics::testbed::{self as plant, Forces, Parameters};
 use serde::{Deserialize, Serialize};
 
-/// `drive.mode`: the actuator applies tau_a.
-pub const TORQUE: i32 = 1;
-/// `drive.mode`: the actuator is a position drive.
-pub const POSITION_SERVO: i32 = 2;
-
-/// The type of `drive.mode`.
-pub const DRIVE: Enumeration = Enumeration {
-    name: "Drive",
-    about: "What the actuator takes",
-    items: &[
-        Item {
-            value: TORQUE,
-            name: "torque",
-            about: "the force tau_a",
-        },
-        Item {
-            value: POSITION_SERVO,
-            name: "position_servo",
-            about: "q_d and dq_d: the drive closes its own loop every substep, tau_a is not used",
-        },
-    ],
-};
+choices! { DRIVE "Drive" "What the actuator takes":
+    TORQUE = 1 "torque" "the force tau_a";
+    POSITION_SERVO = 2 "position_servo" "q_d and dq_d: the drive closes its own loop every substep, tau_a is not used";
+}
 
 /// The testbed: its variables, and the plant.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, Rows, Start)]

@@ -1,10 +1,11 @@
-//! Instructions that a step of each FMU takes, a call that gets or sets all its variables, and a tick of the C library:
-//! counted by valgrind's callgrind on the release libraries. The same binary gives the same count on any machine with the
+//! Instructions that a step of each FMU takes at rest and moving, a call that gets or sets all its variables, and a tick of
+//! the C library: counted by valgrind's callgrind on the release libraries. The same binary gives the same count on any machine with the
 //! same C library, so that a rise is found that no clock would show.
 
 mod baseline;
 mod callgrind;
 
+use crate::catalogue::tables;
 use crate::fuzz::{VALGRIND, valgrind};
 use crate::law::{self, PRECISIONS};
 use crate::process::{Failure, Outcome, answer, at, built, program, root, run};
@@ -60,43 +61,66 @@ fn counted(folder: &Path) -> Outcome<Option<Counts>> {
     };
     println!("{version}, start values, own communication step; instructions per call");
     println!(
-        "{:<18} {:>9} {:>7}   {:>16}   {:>16}",
-        "", "step", "memcpy", "get all outputs", "set all inputs"
+        "{:<18} {:>9} {:>7} {:>9} {:>7}   {:>16}   {:>16}",
+        "", "step", "memcpy", "moving", "memcpy", "get all outputs", "set all inputs"
     );
     let mut counts = Counts::new();
     let out = root().join("target/instructions");
     std::fs::create_dir_all(&out).map_err(at(&out))?;
     let driver = built("counted_calls")?;
+    tables(&out)?;
     for fmu in fmus::ALL {
         let mut command = program(&driver, ["--fmu-dir"]);
         command.arg(folder).args(["--fmu", fmu.name]);
         command.args(["--calls", &CALLS.to_string()]);
         let functions = ["fmi2DoStep", "fmi2Get*", "fmi2Set*"];
         let (printed, [step, get, set]) = count(&command, &functions, &out.join(fmu.name))?;
+        command.arg("--moving");
+        command.arg(out.join(fmu.name).with_extension("txt"));
+        let moving = out.join(format!("{}-moving", fmu.name));
+        let (_, [moving]) = count(&command, &["fmi2DoStep"], &moving)?;
         let (outputs, inputs) = printed.trim().split_once(' ').unwrap_or_default();
-        let [step_n, get_n, set_n] = [&step, &get, &set].map(|part| part.all / CALLS);
+        let [step_n, moving_n, get_n, set_n] =
+            [&step, &moving, &get, &set].map(|part| part.all / CALLS);
         println!(
-            "{:<18} {:>9} {:>7}   {:>8} of {outputs:>4}   {:>8} of {inputs:>4}",
+            "{:<18} {:>9} {:>7} {:>9} {:>7}   {:>8} of {outputs:>4}   {:>8} of {inputs:>4}",
             fmu.name,
             grouped(step_n),
             share(&step),
+            grouped(moving_n),
+            share(&moving),
             grouped(get_n),
             grouped(set_n)
         );
-        for (what, n) in [("step", step_n), ("get", get_n), ("set", set_n)] {
+        for (what, n) in [
+            ("step", step_n),
+            ("step, moving", moving_n),
+            ("get", get_n),
+            ("set", set_n),
+        ] {
             counts.insert(format!("{} {what}", fmu.name), n);
         }
     }
     let functions = ["exo_arm_tick", "exo_axis_tick"];
-    let (_, ticks): (_, [Counted; 2]) = count(
+    let (_, [arm, axis, arm_moving, axis_moving]): (_, [Counted; 4]) = count(
         &program::<&str>(ticking()?, []),
         &functions,
         &out.join("law"),
     )?;
-    for (function, part) in functions.iter().zip(&ticks) {
-        let n = part.all / TICKS;
-        println!("{function:<18} {:>9} {:>7}", grouped(n), share(part));
-        counts.insert((*function).to_owned(), n);
+    for (function, at_rest, moving) in [
+        (functions[0], &arm, &arm_moving),
+        (functions[1], &axis, &axis_moving),
+    ] {
+        let [at_rest_n, moving_n] = [at_rest, moving].map(|part| part.all / TICKS);
+        println!(
+            "{function:<18} {:>9} {:>7} {:>9} {:>7}",
+            grouped(at_rest_n),
+            share(at_rest),
+            grouped(moving_n),
+            share(moving)
+        );
+        counts.insert(function.to_owned(), at_rest_n);
+        counts.insert(format!("{function}, moving"), moving_n);
     }
     Ok(Some(counts))
 }

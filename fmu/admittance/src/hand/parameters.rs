@@ -3,7 +3,6 @@
 use crate::parameters::{check, in_range};
 use crate::real::{consts::TAU, exp_m1};
 use crate::{ParameterError, Real};
-use declaration::check::Expected;
 use declaration::range::POSITIVE;
 use declaration::{Rows, Start};
 
@@ -66,25 +65,27 @@ impl Watch {
         in_range(&hand)?;
         // The row's range includes its end, like every `min` of FMI.
         if hand.growth <= 1.0 {
-            return Err(ParameterError::OutOfRange {
-                name: "stiff_hand.growth",
-                axis: None,
-                value: hand.growth,
-                expected: Expected::Text("a value greater than 1"),
-            });
+            let expected = "a value greater than 1";
+            return Err(ParameterError::of(
+                "stiff_hand.growth",
+                None,
+                hand.growth,
+                expected,
+            ));
         }
         let in_order = hand.f_high > hand.f_low;
         if !in_order || hand.active != 0 && 2.0 * hand.f_high * T * FEWEST_SAMPLES > 1.0 {
-            return Err(ParameterError::OutOfRange {
-                name: "stiff_hand.f_high",
-                axis: None,
-                value: hand.f_high,
-                expected: Expected::Text(if in_order {
-                    "at most 1/(8 T)"
-                } else {
-                    "a value greater than stiff_hand.f_low"
-                }),
-            });
+            let expected = if in_order {
+                "at most 1/(8 T)"
+            } else {
+                "a value greater than stiff_hand.f_low"
+            };
+            return Err(ParameterError::of(
+                "stiff_hand.f_high",
+                None,
+                hand.f_high,
+                expected,
+            ));
         }
         Ok(Self {
             hand,

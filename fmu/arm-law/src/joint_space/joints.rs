@@ -54,7 +54,7 @@ pub struct Angles {
 
 /// The joints at a tick, once the position is known: what they store, before they act.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Sensed {
+pub struct JointSensed {
     q: Vector3<Real>,
     body: RigidBody,
     dq: Vector3<Real>,
@@ -87,7 +87,7 @@ impl Default for JointRequest {
 /// What the joints ask for at a tick. Nothing has happened until it is committed; it may be dropped.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[must_use]
-pub struct Proposal {
+pub struct JointProposal {
     q: Vector3<Real>,
     body: RigidBody,
     intervals: [Interval; 3],
@@ -178,8 +178,8 @@ impl Joints {
 impl Coordinates<3> for Joints {
     type Place = Angles;
     type Request = JointRequest;
-    type Sensed = Sensed;
-    type Proposal = Proposal;
+    type Sensed = JointSensed;
+    type Proposal = JointProposal;
     type Driven = Solution;
 
     fn settings(&self) -> &Settings {
@@ -191,11 +191,11 @@ impl Coordinates<3> for Joints {
     }
 
     /// v_n is carried along the motion since the last tick, the springs slip, gains on their way take over.
-    fn sense(&self, Angles { q, sin_cos }: &Angles) -> Sensed {
+    fn sense(&self, Angles { q, sin_cos }: &Angles) -> JointSensed {
         let law = self.settings.law;
         let body = self.arm.turned(&self.kinematics, sin_cos);
         let Some(last) = &self.state else {
-            return Sensed {
+            return JointSensed {
                 q: *q,
                 body,
                 dq: Vector3::zeros(),
@@ -213,7 +213,7 @@ impl Coordinates<3> for Joints {
             (e, v_n) = stored::taken_over(law, before, gains, &e, &v_n);
         }
         let dq = |i: usize| last.motion[i].dq(q[i], &self.sampling);
-        Sensed {
+        JointSensed {
             q: *q,
             body,
             dq: Vector3::new(dq(0), dq(1), dq(2)),
@@ -223,28 +223,33 @@ impl Coordinates<3> for Joints {
     }
 
     /// H = k (½ v_nᵀ M_n v_n/alpha + ½ eᵀ K_P e)
-    fn stored(&self, sensed: &Sensed) -> Real {
+    fn stored(&self, sensed: &JointSensed) -> Real {
         self.masses(sensed) + self.springs(sensed)
     }
 
-    fn springs(&self, sensed: &Sensed) -> Real {
+    fn springs(&self, sensed: &JointSensed) -> Real {
         stored::springs(self.settings.law, self.tuning.now(), &sensed.e)
     }
 
-    fn masses(&self, sensed: &Sensed) -> Real {
+    fn masses(&self, sensed: &JointSensed) -> Real {
         let kinetic = sensed.body.kinetic(&sensed.v_n);
         self.tuning.now().K * self.settings.over_alpha(kinetic)
     }
 
-    fn reduce(&self, sensed: &mut Sensed, keep: Keep) {
+    fn reduce(&self, sensed: &mut JointSensed, keep: Keep) {
         sensed.e *= keep.e;
         sensed.v_n *= keep.v_n;
     }
 
-    fn propose(&self, sensed: &Sensed, tau_h: &Vector3<Real>, request: &JointRequest) -> Proposal {
+    fn propose(
+        &self,
+        sensed: &JointSensed,
+        tau_h: &Vector3<Real>,
+        request: &JointRequest,
+    ) -> JointProposal {
         let (alpha, T) = (self.settings.reaction(), self.settings.T);
         let gains = self.tuning.now();
-        let Sensed {
+        let JointSensed {
             q,
             body,
             dq,
@@ -266,7 +271,7 @@ impl Coordinates<3> for Joints {
         };
         let wish = midpoint::coupled(gains, alpha, T, &sample, &intervals);
         let y = midpoint::coupling(gains, T, &sample, &wish.v_m);
-        Proposal {
+        JointProposal {
             tau_demand: y * gains.K,
             q: *q,
             body: *body,
@@ -278,7 +283,7 @@ impl Coordinates<3> for Joints {
 
     /// K y of each joint within ±tau_max where the nominal feels what is delivered, else K y, which the caller's limits may
     /// cut as they like.
-    fn f(&self, proposal: &Proposal) -> Vector3<Real> {
+    fn f(&self, proposal: &JointProposal) -> Vector3<Real> {
         if self.settings.law.row().feels_what_is_delivered() {
             let tau_max = &self.tuning.now().tau_max;
             proposal.tau_demand.zip_map(tau_max, sat)
@@ -287,8 +292,8 @@ impl Coordinates<3> for Joints {
         }
     }
 
-    fn driven(&self, proposal: &Proposal, tau: &Vector3<Real>) -> Solution {
-        let Proposal {
+    fn driven(&self, proposal: &JointProposal, tau: &Vector3<Real>) -> Solution {
+        let JointProposal {
             intervals,
             sample,
             wish,
@@ -304,7 +309,7 @@ impl Coordinates<3> for Joints {
     }
 
     /// −ΔH + (k/alpha) tau_h·v_m T ≥ tau·v_m T + (k/alpha) v_mᵀ D_n v_m T + ½ k eᵀ K_P e
-    fn taken(&self, proposal: &Proposal, driven: &Solution, tau: &Vector3<Real>) -> Real {
+    fn taken(&self, proposal: &JointProposal, driven: &Solution, tau: &Vector3<Real>) -> Real {
         let Settings { law, T, .. } = self.settings;
         let port = self.settings.over_alpha(self.tuning.now().K);
         let (gains, sample, v_m) = (self.tuning.now(), &proposal.sample, &driven.v_m);
@@ -312,12 +317,12 @@ impl Coordinates<3> for Joints {
         tau.dot(v_m) * T + port * damped * T + stored::springs(law, gains, &sample.e)
     }
 
-    fn supplied(&self, proposal: &Proposal, driven: &Solution) -> Real {
+    fn supplied(&self, proposal: &JointProposal, driven: &Solution) -> Real {
         let T = self.settings.T;
         self.settings.over_alpha(self.tuning.now().K) * proposal.sample.tau_h.dot(&driven.v_m) * T
     }
 
-    fn exchanged(&self, proposal: &Proposal, driven: &Solution) -> Real {
+    fn exchanged(&self, proposal: &JointProposal, driven: &Solution) -> Real {
         let (gains, T) = (self.tuning.now(), self.settings.T);
         let squares = |i: usize| {
             let (v_m, dq) = (driven.v_m[i], proposal.sample.dq[i]);
@@ -326,7 +331,7 @@ impl Coordinates<3> for Joints {
         gains.K * T * (squares(0) + squares(1) + squares(2))
     }
 
-    fn show(&self, proposal: &Proposal, driven: &Solution, tick: &mut Tick<3>) {
+    fn show(&self, proposal: &JointProposal, driven: &Solution, tick: &mut Tick<3>) {
         let Sample { e, v_n, dq, .. } = &proposal.sample;
         tick.f_demand = proposal.tau_demand;
         tick.q_n = e + proposal.q;
@@ -336,10 +341,10 @@ impl Coordinates<3> for Joints {
         tick.held = driven.held.iter().any(|held| *held);
     }
 
-    fn commit(&mut self, proposal: &Proposal, driven: &Solution, tau: &Vector3<Real>) {
+    fn commit(&mut self, proposal: &JointProposal, driven: &Solution, tau: &Vector3<Real>) {
         let Settings { law, T, .. } = self.settings;
         let gains = self.tuning.now();
-        let Proposal {
+        let JointProposal {
             q,
             body,
             sample,

@@ -42,5 +42,5 @@ pub mod midpoint;
 pub mod stored;
 
 pub use gains::{JointGains, JointSettings};
-pub use joints::{Angles, JointRequest, Joints, Proposal, Sensed};
+pub use joints::{Angles, JointProposal, JointRequest, JointSensed, Joints};
 pub use law::{JointParameters, JointSpace, Nominal};

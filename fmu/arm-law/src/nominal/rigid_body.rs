@@ -6,7 +6,6 @@
 use crate::kinematics::{Kinematics, SinCos, beta, sin_cos};
 use admittance::parameters::in_range;
 use admittance::{ParameterError, Real};
-use declaration::check::Expected;
 use declaration::{Rows, Start};
 use nalgebra::{Matrix3, Vector3};
 
@@ -143,12 +142,13 @@ impl NominalArm {
         in_range(self)?;
         for (i, link) in (1..).zip(&self.links) {
             if link.I_xz * link.I_xz > link.I_xx * link.I_zz {
-                return Err(ParameterError::OutOfRange {
-                    name: "nominal.I_xz",
-                    axis: Some(i),
-                    value: link.I_xz,
-                    expected: Expected::Text("at most sqrt(I_xx I_zz) in absolute value"),
-                });
+                let expected = "at most sqrt(I_xx I_zz) in absolute value";
+                return Err(ParameterError::of(
+                    "nominal.I_xz",
+                    Some(i),
+                    link.I_xz,
+                    expected,
+                ));
             }
         }
         Ok(())

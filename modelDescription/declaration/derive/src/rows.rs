@@ -186,6 +186,7 @@ fn row(field: &Ident, of: &Type, attribute: &Row, discrete: bool) -> Result<Toke
         }
     };
     let number = &attribute.number;
+    let field = field.to_string();
     let about = attribute.key("about").map_or_else(
         || {
             let about = &attribute.about;
@@ -201,6 +202,7 @@ fn row(field: &Ident, of: &Type, attribute: &Row, discrete: bool) -> Result<Toke
     Ok(quote! {
         ::declaration::Variable::new(#name, ::declaration::Access::#access)
             .numbered(#number)
+            .of_field(#field)
             .#causality(::declaration::Variability::#variability)
             .about(#about)
             #from

@@ -1,14 +1,20 @@
 //! The same calls on one FMU again and again, for callgrind to count (`cargo xtask bench`).
 //!
 //! ```text
-//! counted_calls --fmu-dir DIR --fmu NAME --calls N
+//! counted_calls --fmu-dir DIR --fmu NAME --calls N [--moving TABLE]
 //! ```
 //!
 //! The FMU runs at its start values with the step of its default experiment. After some calls that nobody counts, it makes N
 //! steps, then gets all outputs N times, then sets all inputs N times, as an importer does: one call for each type that
 //! occurs. `counted_part` ends each of the three. It prints the number of outputs and of inputs.
+//!
+//! With the C host's table of the FMU it moves: parameters are set, each step has other inputs, and N steps are all that is
+//! counted.
+
+mod moving;
 
 use abi::{Fmu, Instance, Kind, Status};
+use moving::{Moving, Watched};
 use std::path::Path;
 use std::process::ExitCode;
 
@@ -93,14 +99,34 @@ extern "C" fn counted_part() {
     std::hint::black_box(());
 }
 
+fn step(fmu: &Fmu, instance: &Instance, k: u32) {
+    let status = instance.step(f64::from(k) * fmu.step_size, fmu.step_size);
+    assert_eq!(status, Status::OK, "{:?}", instance.messages());
+}
+
+fn play_moving(fmu: &Fmu, calls: u32, moving: &Moving) {
+    let instance = fmu.instantiate_as(&fmu.setup().silent());
+    moving.prepare(fmu, &instance);
+    instance.initialize(0.0);
+    let mut watched = Watched::new(fmu, &instance);
+    for k in 0..WARM_UP + calls {
+        if k == WARM_UP {
+            counted_part();
+        }
+        moving.set(k, &instance);
+        step(fmu, &instance, k);
+        if k >= WARM_UP {
+            watched.moved();
+        }
+    }
+    counted_part();
+}
+
 fn play(fmu: &Fmu, calls: u32) {
     let instance = fmu.instantiate_as(&fmu.setup().silent());
     instance.initialize(0.0);
     let (mut outputs, mut inputs) = (Block::of(fmu, "output"), Block::of(fmu, "input"));
-    let step = |k: u32| {
-        let status = instance.step(f64::from(k) * fmu.step_size, fmu.step_size);
-        assert_eq!(status, Status::OK, "{:?}", instance.messages());
-    };
+    let step = |k| step(fmu, &instance, k);
     inputs.get(&instance);
     outputs.get(&instance);
     inputs.set(&instance);
@@ -119,15 +145,29 @@ fn main() -> ExitCode {
     let words: Vec<_> = std::env::args().skip(1).collect();
     let words: Vec<_> = words.iter().map(String::as_str).collect();
     let calls = |text: &str| text.parse().ok().filter(|calls| *calls > 0);
-    match *words {
-        ["--fmu-dir", folder, "--fmu", name, "--calls", text] if calls(text).is_some() => {
-            let fmu = Fmu::open_in(Path::new(folder), name);
-            play(&fmu, calls(text).unwrap_or(1));
-            ExitCode::SUCCESS
+    if let [
+        "--fmu-dir",
+        folder,
+        "--fmu",
+        name,
+        "--calls",
+        text,
+        ref more @ ..,
+    ] = *words
+        && let Some(calls) = calls(text)
+    {
+        let fmu = Fmu::open_in(Path::new(folder), name);
+        match more {
+            [] => play(&fmu, calls),
+            ["--moving", table] => play_moving(&fmu, calls, &Moving::read(Path::new(table))),
+            _ => return usage(),
         }
-        _ => {
-            eprintln!("usage: counted_calls --fmu-dir DIR --fmu NAME --calls N");
-            ExitCode::FAILURE
-        }
+        return ExitCode::SUCCESS;
     }
+    usage()
+}
+
+fn usage() -> ExitCode {
+    eprintln!("usage: counted_calls --fmu-dir DIR --fmu NAME --calls N [--moving TABLE]");
+    ExitCode::FAILURE
 }
