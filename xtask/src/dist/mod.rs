@@ -37,6 +37,7 @@ use inspect::inspect;
 use platform::{GLIBC, PLATFORMS, Platform, Runner};
 use std::time::Instant;
 use toolchain::Toolchains;
+pub use toolchain::with_libraries;
 
 /// One platform's row in the summary.
 struct Row {

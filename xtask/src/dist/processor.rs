@@ -69,12 +69,7 @@ fn on_the_microcontroller(precision: &Precision, zig: &Path, binutils: &Path) ->
     let mut link = linker(binutils);
     link.args(["--gc-sections", "-e", "start", "-Ttext=0x10000"]);
     link.arg(&object);
-    link.arg(
-        compile::folder()
-            .join(TARGET)
-            .join("law")
-            .join(precision.library),
-    );
+    link.arg(super::firmware::library(precision));
     compiled(with_libraries(&mut link, binutils).arg("-o").arg(&image))?;
     Ok(image)
 }

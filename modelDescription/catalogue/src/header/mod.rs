@@ -1,4 +1,12 @@
-//! The C header of the law's library, made by cbindgen from `fmu/c/src`.
+//! The C headers of the law's library, made by cbindgen from `fmu/c/src`.
+//!
+//! | module | what is added |
+//! |---|---|
+//! | [`mod@constants`] | a constant for every item of every choice |
+//! | [`precision`] | one header for each precision |
+
+pub mod constants;
+pub mod precision;
 
 use crate::root;
 use arm_law::choices;
@@ -6,16 +14,40 @@ use declaration::Enumeration;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-/// The header's committed place.
+/// Names of the headers: of double precision, which all programs include, and of single precision.
+pub const NAMES: [&str; 2] = ["exo_law.h", "exo_law_f32.h"];
+
+/// The headers' committed place.
 pub fn committed() -> PathBuf {
-    root().join("fmu/c/include/exo_law.h")
+    root().join("fmu/c/include")
 }
 
-/// The header that the source gives.
+/// The headers that the source gives, in the order of [`NAMES`].
 ///
 /// # Errors
 /// When cbindgen cannot read the source.
-pub fn header() -> Result<String, String> {
+pub fn headers() -> Result<[String; 2], String> {
+    let (double, single) = precision::split(&both()?)?;
+    Ok([double, single])
+}
+
+/// Before what depends on the precision: the version, and a constant for every item.
+fn preamble() -> String {
+    let version = model_description::VERSION;
+    let numbers = ["MAJOR", "MINOR", "PATCH"];
+    let parts = version.split(['.', '-', '+']).zip(numbers);
+    let parts: Vec<_> = parts
+        .map(|(number, part)| format!("#define EXO_LAW_VERSION_{part} {number}\n"))
+        .collect();
+    format!(
+        "// Version of this header; exo_law_version() is that of the library.\n#define EXO_LAW_VERSION \"{version}\"\n{}\n{}",
+        parts.concat(),
+        constants::text()
+    )
+}
+
+/// What cbindgen makes of the source, with both precisions in it, units and constants.
+fn both() -> Result<String, String> {
     let source = root().join("fmu/c");
     let found = |error: &dyn std::fmt::Display| format!("cbindgen: {error}");
     let config =
@@ -31,12 +63,18 @@ pub fn header() -> Result<String, String> {
     bindings.write(&mut text);
     let text = String::from_utf8(text).map_err(|error| found(&error))?;
     let config = std::fs::read_to_string(source.join("cbindgen.toml")).map_err(|e| found(&e))?;
-    Ok(with_units(&text, &config, &units(&source)?))
+    let text = with_units(&text, &config, &units(&source)?);
+    let begin = "#if !defined(EXO_LAW_F32)";
+    if !text.contains(begin) {
+        return Err(format!("cbindgen's header has no {begin}"));
+    }
+    Ok(text.replacen(begin, &(preamble() + begin), 1))
 }
 
 /// The choices of the law, by the names of their constants.
 const CHOICES: [(&str, Enumeration); 11] = [
-    ("LAW", admittance::law::LAW),
+    // One axis of the library has the laws that the arm has, too.
+    ("LAW", admittance::law::OFFERED_LAW),
     ("OFFERED_LAW", admittance::law::OFFERED_LAW),
     ("TORQUE_LIMITING", choices::TORQUE_LIMITING),
     ("FRAME", choices::FRAME),
@@ -164,28 +202,55 @@ fn with_units(text: &str, config: &str, units: &BTreeMap<(String, String), Strin
 mod tests {
     use super::*;
 
+    fn made() -> [String; 2] {
+        headers().unwrap_or_else(|error| panic!("{error}"))
+    }
+
     #[test]
     fn a_field_bears_the_unit_or_the_choice_of_its_row() {
-        let text = header().unwrap_or_else(|error| panic!("{error}"));
-        for line in [
-            "  exo_real engage_time; // s",
-            "  exo_real Lambda_n[3]; // kg",
-            "  double q[3]; // rad",
-            "  exo_real I_xz; // kg.m2",
-            "  int32_t space; // 1 task, 2 joint",
-            "  int32_t engage; // 0 or 1",
-        ] {
-            assert!(text.lines().any(|found| found == line), "{line}");
+        for text in made() {
+            for line in [
+                "exo_real engage_time; // s",
+                "exo_real Lambda_n[3]; // kg",
+                "double q[3]; // rad",
+                "exo_real I_xz; // kg.m2",
+                "int32_t space; // 1 task, 2 joint",
+                "int32_t engage; // 0 or 1",
+            ] {
+                let single = line.replace("exo_real", "exo_f32_real");
+                let is_it = |found: &str| found.trim() == line || found.trim() == single;
+                assert!(text.lines().any(is_it), "{line}");
+            }
         }
     }
 
     #[test]
-    fn the_committed_header_is_what_the_source_gives() {
-        let text = header().unwrap_or_else(|error| panic!("{error}"));
-        let committed = std::fs::read_to_string(committed()).expect("is committed");
-        assert!(
-            committed == text,
-            "run `cargo xtask law --bless` and read the diff"
-        );
+    fn every_choice_of_a_field_is_in_its_comment() {
+        let [double, _] = made();
+        for choice in constants::choices() {
+            let item = &choice.of.items[0];
+            let comment = format!("// {} {}", item.value, item.name);
+            for variable in choice.variables {
+                let field = format!("int32_t {}; ", variable.replace('.', "_"));
+                let short = format!("int32_t {}; ", variable.rsplit('.').next().unwrap_or(""));
+                let found = double.lines().find(|line| {
+                    let line = line.trim();
+                    (line.starts_with(&field) || line.starts_with(&short)) && line.contains("//")
+                });
+                let found = found.unwrap_or_else(|| panic!("{variable} has no field"));
+                assert!(found.contains(&comment), "{found}: expected {comment}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_committed_headers_are_what_the_source_gives() {
+        for (name, text) in NAMES.iter().zip(made()) {
+            let committed = std::fs::read_to_string(committed().join(name)).expect("is committed");
+            assert!(
+                committed == text,
+                "{name}: run `cargo xtask law --bless` and read the diff"
+            );
+        }
     }
 }
