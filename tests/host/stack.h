@@ -1,7 +1,7 @@
 /* How much stack the functions of the law's library take: the stack below a call is painted, and looked at afterwards.
  *
- * Only where MEASURE_STACK is defined; elsewhere nothing is done. Its value is the size in bytes of what may be painted and,
- * elsewhere than on a bare Arm, of the stack of the thread in which all of it runs.
+ * Only where MEASURE_STACK is defined; elsewhere nothing is done. Its value says how many bytes are painted. Elsewhere than
+ * on a bare Arm all of it runs in a thread, whose stack has as many and some for the system.
  */
 enum measured { ARM_INIT, ARM_TUNE, ARM_TICK, AXIS_INIT, AXIS_TICK, MEASURED };
 

@@ -53,6 +53,7 @@ int main(void) {
   exo_arm_inputs_defaults(&in);
   in.engage = 0;
   int32_t state = EXO_STATE_OFF;
+  double height = 0.0;
   for (int tick = 0; tick < END; tick++) { /* every T, after the encoders have been read */
     sense(&in, tick);
     in.heartbeat = tick;
@@ -64,11 +65,12 @@ int main(void) {
     }
     drive(out.tau_a, (double)parameters.T);
     in.engage = out.state != EXO_STATE_OFF && out.state != EXO_STATE_INIT; /* its rising edge counts once the law is ready */
+    height = tick == 0 ? (double)out.p[2] : height;
     if (out.state != state) {
       state = out.state;
       printf("%.3f s: %s\n", tick * (double)parameters.T, states[state]);
     }
   }
-  printf("lifted by %.0f mm\n", 1000.0 * (double)(out.p[2] - out.p_n[2]) + 0.0);
+  printf("the hand has lifted it by %.0f mm\n", 1000.0 * ((double)out.p[2] - height));
   return state == EXO_STATE_OFF ? 0 : 1;
 }

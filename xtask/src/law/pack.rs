@@ -9,7 +9,7 @@
 //! drops it because nothing reaches it; if any path of the law could panic, the name would stay.
 
 use super::Precision;
-use crate::process::{Failure, Outcome, at, output, program, run};
+use crate::process::{Failure, Outcome, answer, at, program, run};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -66,9 +66,7 @@ pub fn pack(made: &Path, precision: &Precision, tools: &Binutils, to: &Path) -> 
     std::fs::create_dir_all(&folder).map_err(at(&folder))?;
     let (whole, object) = (folder.join("whole.o"), folder.join(object_name(precision)));
 
-    let functions = functions(&output(
-        tools.program("nm").args(["-g", "--defined-only"]).arg(made),
-    )?);
+    let functions = functions(&listed(tools, &["-g", "--defined-only"], made)?);
     if functions.is_empty() {
         return Err(Failure::Found(format!(
             "{} defines no function whose name begins with exo_",
@@ -81,7 +79,7 @@ pub fn pack(made: &Path, precision: &Precision, tools: &Binutils, to: &Path) -> 
         link.args(["-u", function]);
     }
     run(link.arg(made).arg("-o").arg(&whole))?;
-    asks_for_nothing_else(&output(tools.program("nm").arg("-u").arg(&whole))?)?;
+    asks_for_nothing_else(&listed(tools, &["-u"], &whole)?)?;
 
     let names = |file: &str, line: &dyn Fn(&str) -> String| -> Outcome<PathBuf> {
         let path = folder.join(file);
@@ -109,6 +107,13 @@ pub fn pack(made: &Path, precision: &Precision, tools: &Binutils, to: &Path) -> 
     // An old archive would keep its other members.
     let _ = std::fs::remove_file(to);
     run(tools.program("ar").arg("crsD").arg(to).arg(&object))
+}
+
+/// What `nm` says of a file; that a member has no symbols, as many have, is not shown.
+fn listed(tools: &Binutils, options: &[&str], file: &Path) -> Outcome<String> {
+    answer(tools.program("nm").args(options).arg(file)).ok_or(Failure::Missing(
+        "the C library is packed with nm, ld, objcopy and ar: nm is missing or fails; install binutils",
+    ))
 }
 
 fn object_name(precision: &Precision) -> String {
