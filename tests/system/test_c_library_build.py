@@ -286,7 +286,7 @@ def version() -> str:
 def documented() -> dict[str, dict[str, int]]:
     """The table of stacks in docs/real-time.md: bytes by precision and function."""
     text = (ROOT / "docs" / "real-time.md").read_text()
-    table = re.search(r"\| stack, bytes \| f64 \| f32 \|.*?\n\n", text, re.DOTALL)
+    table = re.search(r"\| stack, bytes \| f64 \| f32 \| .*?\n\n", text, re.DOTALL)
     assert table, "docs/real-time.md has no table `stack, bytes | f64 | f32`"
     stacks: dict[str, dict[str, int]] = {precision: {} for precision in PRECISIONS}
     for line in table.group().splitlines()[2:]:

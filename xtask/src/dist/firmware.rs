@@ -56,9 +56,8 @@ pub fn build(tools: &Toolchains) -> Outcome<Result<String, String>> {
                 remapping(&compile::renamed(&rust))?,
             ))?;
         let library = library(precision);
-        let made = compile::folder().join(TARGET).join("law");
         let parts = Binutils::unpacked(&binutils, "arm-none-eabi-");
-        pack(&made.join(precision.library), precision, &parts, &library)?;
+        pack(&made(precision), precision, &parts, &library)?;
         for (law, functions) in CALLED {
             let functions: Vec<_> = functions
                 .iter()
@@ -77,6 +76,12 @@ pub fn build(tools: &Toolchains) -> Outcome<Result<String, String>> {
         crate::catalogue::law_headers(&folder)?;
     }
     Ok(Ok(format!("bytes of code: {}", sizes.join(", "))))
+}
+
+/// What cargo has made.
+pub fn made(precision: &Precision) -> PathBuf {
+    let folder = compile::folder().join(TARGET).join("law");
+    folder.join(precision.library)
 }
 
 /// Where the packed library lies.
