@@ -45,14 +45,19 @@ impl<T> Place<T> {
 }
 
 /// Writes zeros over the fields `at` (bytes from the begin of the struct), all numbers, where there is a struct.
+#[inline]
 pub(crate) fn zero<T>(outputs: *mut T, at: &[Range<usize>]) {
     let Ok(Place(outputs)) = Place::at(outputs) else {
         return;
     };
-    let bytes = at.iter().flat_map(Range::clone);
-    for byte in bytes.filter(|byte| *byte < size_of::<T>()) {
-        // SAFETY: within the object that is there by the caller's contract. Nothing is read: it may be uninitialized.
-        unsafe { outputs.cast::<u8>().add(byte).write(0) }
+    for at in at {
+        if at.start <= at.end && at.end <= size_of::<T>() {
+            // SAFETY: within the object that is there by the caller's contract. Nothing is read: it may be uninitialized.
+            unsafe {
+                let begin = outputs.cast::<u8>().add(at.start);
+                begin.write_bytes(0, at.end - at.start);
+            }
+        }
     }
 }
 

@@ -18,6 +18,9 @@ fn memory<T>() -> Box<T> {
     Box::new(unsafe { MaybeUninit::<T>::zeroed().assume_init() })
 }
 
+/// What is done wrong, and how that is refused.
+type Spoilt<T> = (fn(&mut T), Status);
+
 /// A place where no refusal can be written.
 fn askew() -> *mut Refusal {
     std::ptr::without_provenance_mut(align_of::<Refusal>() + 1)
@@ -49,7 +52,7 @@ fn pushing_arm() -> (Box<ArmState>, ArmInputs, Box<ArmOutputs>) {
 
 #[test]
 fn a_refused_tick_of_the_arm_leaves_no_torque_and_the_next_one_goes_on() {
-    let refused: [(fn(&mut ArmInputs), Status); 3] = [
+    let refused: [Spoilt<ArmInputs>; 3] = [
         (|i| i.q[1] = f64::NAN, Status::Refused),
         (|i| i.q[2] = f64::INFINITY, Status::Refused),
         (|i| i.engage = 2, Status::Refused),
@@ -115,9 +118,9 @@ fn a_refused_tick_of_an_axis_leaves_no_force_and_the_next_one_goes_on() {
         assert!(outputs.tau_a != 0.0 && outputs.tau_demand != 0.0);
         (state, inputs, outputs)
     };
-    let refused: [(fn(&mut AxisInputs), Status); 3] = [
+    let refused: [Spoilt<AxisInputs>; 3] = [
         (|i| i.q = f64::NAN, Status::Refused),
-        (|i| i.tau_h = f32::INFINITY.into(), Status::Refused),
+        (|i| i.tau_h = admittance::Real::INFINITY, Status::Refused),
         (|i| i.hold = -1, Status::Refused),
     ];
     for (spoil, expected) in refused {
