@@ -3,7 +3,7 @@
 //!
 //! | module | what |
 //! |---|---|
-//! | [`pack`] | of what cargo makes, the law alone and its own symbols alone; it must link though no panic handler is there |
+//! | [`mod@pack`] | of what cargo makes, the law alone and its own symbols alone; it must link though no panic handler is there |
 //! | [`install`] | a folder as other programs expect it: pkg-config, CMake, licences, bill of materials |
 
 pub mod install;
