@@ -95,12 +95,12 @@ pub fn files(contents: &Contents<'_>) -> Vec<(String, Vec<u8>)> {
         ),
         (
             "documentation/sbom.cdx.json".to_owned(),
-            sbom(interface, linked).into_bytes(),
+            sbom(&interface.into(), linked).into_bytes(),
         ),
         // Importers pass its location to fmi2Instantiate, so it exists, although nothing is in it.
         ("resources/".to_owned(), Vec::new()),
     ];
-    let licences = licences::files(interface, linked);
+    let licences = licences::files(&interface.into(), linked);
     files.extend(
         licences
             .into_iter()

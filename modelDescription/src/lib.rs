@@ -46,6 +46,7 @@
 //! | `html` | its pieces | | |
 //! | [`guide`] | what the rows cannot tell: picture, wiring | in the document | |
 //! | [`quick_start`] | first steps in a few tools | in the document | |
+//! | [`product`] | what is delivered, as licences and bill of materials name it | | |
 //! | [`component`], [`mod@sbom`] | what is linked in, and its bill of materials | `documentation/sbom.cdx.json` | |
 //! | [`licences`] | licence texts of all that is linked in | `documentation/licenses/` | 2.3 |
 //! | [`mod@header`] | value references for C programs | `documentation/<name>.h` | |
@@ -64,6 +65,7 @@ mod html;
 pub mod interface;
 pub mod licences;
 pub mod name;
+pub mod product;
 pub mod quick_start;
 pub mod rules;
 pub mod sbom;
@@ -76,6 +78,7 @@ pub use error::Error;
 pub use guide::{Connection, Guide};
 pub use header::write as header;
 pub use interface::Interface;
+pub use product::Product;
 pub use sbom::write as sbom;
 pub use xml::write as xml;
 

@@ -1,17 +1,18 @@
-//! `documentation/licenses/`: the FMU's own licence, and the texts of all that is linked in (section 2.3).
+//! The own licence of what is delivered, and the texts of all that is linked in; in an FMU `documentation/licenses/` (section
+//! 2.3).
 
-use crate::{Component, Interface, xml};
+use crate::{Component, Product, xml};
 use std::fmt::Write as _;
 
 const MIT: &str = include_str!("../../LICENSE-MIT");
 const APACHE: &str = include_str!("../../LICENSE-APACHE");
 
-/// Paths below `documentation/licenses/`, with contents. `license.txt` is the entry point.
-pub fn files(interface: &Interface, linked: &[Component]) -> Vec<(String, Vec<u8>)> {
+/// Paths, in an FMU below `documentation/licenses/`, with contents. `license.txt` is the entry point.
+pub fn files(product: &Product<'_>, linked: &[Component]) -> Vec<(String, Vec<u8>)> {
     let mut files = vec![
         (
             "license.txt".to_owned(),
-            overview(interface, linked).into_bytes(),
+            overview(product, linked).into_bytes(),
         ),
         ("LICENSE-MIT.txt".to_owned(), MIT.into()),
         ("LICENSE-APACHE.txt".to_owned(), APACHE.into()),
@@ -24,10 +25,10 @@ pub fn files(interface: &Interface, linked: &[Component]) -> Vec<(String, Vec<u8
     files
 }
 
-fn overview(interface: &Interface, linked: &[Component]) -> String {
+fn overview(product: &Product<'_>, linked: &[Component]) -> String {
     let mut text = format!(
         "{} {}\n{}\n\nLicensed under {}, at your option:\nLICENSE-MIT.txt or LICENSE-APACHE.txt in this folder.\n",
-        interface.name,
+        product.name,
         crate::VERSION,
         xml::COPYRIGHT,
         crate::LICENSE

@@ -1,6 +1,6 @@
 //! The bill of materials: CycloneDX 1.5 in JSON. No serial number and no date: the same parts give the same bytes.
 
-use crate::{Component, Interface};
+use crate::{Component, Product};
 use serde::Serialize;
 
 #[derive(Serialize)]
@@ -63,34 +63,38 @@ struct Dependency {
     depends_on: Vec<String>,
 }
 
-/// Writes the bill of the FMU with what is linked into its libraries.
+/// Writes the bill of what is delivered, with what is linked into its libraries.
 ///
 /// # Panics
 /// When serde_json cannot write our own elements: a programming error that the first test shows.
-pub fn write(interface: &Interface, linked: &[Component]) -> String {
+pub fn write(product: &Product<'_>, linked: &[Component]) -> String {
     let own = Part {
         kind: "library",
-        reference: interface.name.to_owned(),
-        name: interface.name,
+        reference: product.name.to_owned(),
+        name: product.name,
         version: crate::VERSION,
-        description: Some(interface.about),
+        description: Some(product.about),
         hashes: Vec::new(),
         licenses: [Licence {
             expression: crate::LICENSE,
         }],
         purl: None,
-        properties: vec![Property {
-            name: "fmi:guid",
-            value: &interface.guid,
-        }],
+        properties: product
+            .guid
+            .iter()
+            .map(|value| Property {
+                name: "fmi:guid",
+                value,
+            })
+            .collect(),
     };
-    // Used by no other component: used by the FMU itself.
+    // Used by no other component: used by the whole itself.
     let roots = linked
         .iter()
         .map(Component::id)
         .filter(|id| !linked.iter().any(|other| other.uses.contains(id)));
     let mut dependencies = vec![Dependency {
-        reference: interface.name.to_owned(),
+        reference: product.name.to_owned(),
         depends_on: roots.collect(),
     }];
     dependencies.extend(linked.iter().map(|component| Dependency {

@@ -7,10 +7,14 @@
  *
  * On a bare Arm it starts at `start` and writes through semihosting; elsewhere it is a program like any other. It must be
  * compiled with -ffp-contract=off: a sum of products rounded once is another number.
+ *
+ * With MEASURE_STACK, a size in bytes, it prints instead how much stack each function of the library took at most.
  */
+#define _GNU_SOURCE /* pthread.h, where a stack is measured */
 #include "exo_law.h"
 #include <stddef.h>
 #include <stdint.h>
+#include "stack.h"
 
 /* ---- where the text goes ---- */
 
@@ -41,6 +45,9 @@ static int run_all(void);
 
 void start(void)
 {
+#if defined(MEASURE_STACK)
+    bottom = (unsigned char *)__builtin_frame_address(0) - MEASURE_STACK;
+#endif
     const struct { int reason, code; } how = {STOPPED, run_all()};
     semihost(SYS_EXIT_EXTENDED, &how);
     for (;;) {
@@ -56,10 +63,34 @@ static void write_text(const char *text, size_t length)
 
 static int run_all(void);
 
+#if defined(MEASURE_STACK)
+#include <pthread.h>
+
+static void *in_a_thread(void *result)
+{
+    bottom = (unsigned char *)__builtin_frame_address(0) - MEASURE_STACK;
+    *(int *)result = run_all();
+    return NULL;
+}
+
+int main(void)
+{
+    pthread_attr_t with;
+    pthread_t thread;
+    int result = 1;
+    pthread_attr_init(&with);
+    /* The system has some of it for itself. */
+    if (pthread_attr_setstacksize(&with, MEASURE_STACK + 32768)) return 1;
+    if (pthread_create(&thread, &with, in_a_thread, &result)) return 1;
+    pthread_join(thread, NULL);
+    return result;
+}
+#else
 int main(void)
 {
     return run_all();
 }
+#endif
 #endif
 
 static char line[8192];
@@ -82,6 +113,26 @@ static void end_line(void)
     used = 0;
 }
 
+#if defined(MEASURE_STACK)
+static void number(size_t value)
+{
+    if (value > 9) number(value / 10);
+    put((char)('0' + value % 10));
+}
+
+static void print_stack(void)
+{
+    used = 0; /* the bits of the last ticks are the other program's */
+    for (int i = 0; i < MEASURED; i++) {
+        word(names[i]);
+        put(' ');
+        number(deepest[i]);
+        end_line();
+    }
+}
+#endif
+
+#if !defined(MEASURE_STACK)
 static void bits(const void *from, size_t size)
 {
     uint64_t value = 0;
@@ -90,6 +141,7 @@ static void bits(const void *from, size_t size)
     put(' ');
     for (int digit = (int)size * 2 - 1; digit >= 0; digit--) put("0123456789abcdef"[value >> (4 * digit) & 15]);
 }
+#endif
 
 static int broken;
 
@@ -102,9 +154,57 @@ static void expect(int good, const char *promise)
     end_line();
 }
 
+/* ---- the calls, whose stack can be measured ---- */
+
+__attribute__((noinline)) static exo_status init_arm(exo_arm_state *law, const exo_arm_parameters *given, exo_refusal *refusal)
+{
+    paint();
+    exo_status status = exo_arm_init(law, given, refusal);
+    look(ARM_INIT);
+    return status;
+}
+
+__attribute__((noinline)) static exo_status tune_arm(exo_arm_state *law, const exo_arm_parameters *given, exo_refusal *refusal)
+{
+    paint();
+    exo_status status = exo_arm_tune(law, given, refusal);
+    look(ARM_TUNE);
+    return status;
+}
+
+__attribute__((noinline)) static exo_status tick_arm(exo_arm_state *law, const exo_arm_inputs *in, exo_arm_outputs *out,
+                                                     exo_refusal *refusal)
+{
+    paint();
+    exo_status status = exo_arm_tick(law, in, out, refusal);
+    look(ARM_TICK);
+    return status;
+}
+
+__attribute__((noinline)) static exo_status init_axis(exo_axis_state *law, const exo_axis_parameters *given,
+                                                      exo_refusal *refusal)
+{
+    paint();
+    exo_status status = exo_axis_init(law, given, refusal);
+    look(AXIS_INIT);
+    return status;
+}
+
+__attribute__((noinline)) static exo_status tick_axis(exo_axis_state *law, const exo_axis_inputs *in, exo_axis_outputs *out,
+                                                      exo_refusal *refusal)
+{
+    paint();
+    exo_status status = exo_axis_tick(law, in, out, refusal);
+    look(AXIS_TICK);
+    return status;
+}
+
 /* Every output, in the order of the library's description of its structs. */
 static void dump(const void *outputs, exo_status (*describe)(size_t, exo_variable *))
 {
+#if defined(MEASURE_STACK)
+    (void)outputs, (void)describe; /* not to be compared */
+#else
     exo_variable variable;
     for (size_t n = 0; describe(n, &variable) == EXO_STATUS_OK; n++) {
         if (variable.role != EXO_ROLE_OUTPUT) continue;
@@ -114,6 +214,7 @@ static void dump(const void *outputs, exo_status (*describe)(size_t, exo_variabl
         }
     }
     end_line();
+#endif
 }
 
 /* A triangle of height 1 and period 400, in steps of 0.01: each value is one correctly rounded division. */
@@ -153,7 +254,7 @@ static void arm_tick(exo_arm_state *law, arm *robot, const exo_arm_parameters *p
     in.enable = 1;
     in.heartbeat = n;
     in.emergency_stop = n >= 560;
-    expect(exo_arm_tick(law, &in, &out, &refusal) == EXO_STATUS_OK, "a tick of the arm is made");
+    expect(tick_arm(law, &in, &out, &refusal) == EXO_STATUS_OK, "a tick of the arm is made");
     dump(&out, exo_arm_variable);
     for (int i = 0; i < 3; i++) {
         double torque = (double)out.tau_a[i] + 5.0 * triangle(n) - 8.0 * robot->dq[i];
@@ -179,12 +280,12 @@ static void run_arm(const arm_case *which)
     parameters.supervisor.engage_time = (exo_real)0.125;
     for (int i = 0; i < 3; i++) parameters.tau_max[i] = 25;
     if (which->shake > 0.0) parameters.E_0 = (exo_real)0.0625;
-    expect(exo_arm_init(&state, &parameters, &refusal) == EXO_STATUS_OK, "the arm's law begins");
+    expect(init_arm(&state, &parameters, &refusal) == EXO_STATUS_OK, "the arm's law begins");
 
     arm robot = home;
     for (int n = 0; n < 300; n++) arm_tick(&state, &robot, &parameters, which, n);
     for (int i = 0; i < 3; i++) parameters.K[i] *= 2;
-    expect(exo_arm_tune(&state, &parameters, &refusal) == EXO_STATUS_OK, "other gains are taken");
+    expect(tune_arm(&state, &parameters, &refusal) == EXO_STATUS_OK, "other gains are taken");
     arm before = robot;
     kept = state;
     for (int n = 300; n < 350; n++) arm_tick(&state, &robot, &parameters, which, n);
@@ -192,8 +293,18 @@ static void run_arm(const arm_case *which)
     robot = before;
     for (int n = 300; n < TICKS; n++) arm_tick(&state, &robot, &parameters, which, n);
 
+#if defined(MEASURE_STACK)
+    /* What is refused goes other ways. */
+    exo_arm_inputs bad;
+    exo_arm_outputs out;
+    exo_arm_inputs_defaults(&bad);
+    bad.q[1] = (double)parameters.T / 0.0 - (double)parameters.T / 0.0;
+    tick_arm(&state, &bad, &out, &refusal);
+    bad.engage = 2;
+    expect(tick_arm(&state, &bad, &out, &refusal) == EXO_STATUS_REFUSED, "a truth of 2 is refused");
+#endif
     parameters.T = 0;
-    expect(exo_arm_init(&state, &parameters, &refusal) == EXO_STATUS_REFUSED, "a sample period of 0 is refused");
+    expect(init_arm(&state, &parameters, &refusal) == EXO_STATUS_REFUSED, "a sample period of 0 is refused");
     word("refused: ");
     word(refusal.name);
     word(": expected ");
@@ -216,11 +327,11 @@ static void run_axis(int law, double shake)
     exo_axis_defaults(&parameters);
     parameters.law = law;
     if (shake > 0.0) parameters.E_0 = (exo_real)0.0625;
-    expect(exo_axis_init(&state, &parameters, &refusal) == EXO_STATUS_OK, "the axis's law begins");
+    expect(init_axis(&state, &parameters, &refusal) == EXO_STATUS_OK, "the axis's law begins");
     double q = 0.0, dq = 0.0;
     for (int n = 0; n < TICKS; n++) {
         exo_axis_inputs in = {q + shake * triangle(97 * n), (exo_real)(20.0 * triangle(n)), n >= 80, n >= 420 && n < 450};
-        expect(exo_axis_tick(&state, &in, &out, &refusal) == EXO_STATUS_OK, "a tick of the axis is made");
+        expect(tick_axis(&state, &in, &out, &refusal) == EXO_STATUS_OK, "a tick of the axis is made");
         dump(&out, exo_axis_variable);
         /* A wall at 0.01 m. */
         double wall = q > 0.01 ? -2e4 * (q - 0.01) - 50.0 * dq : 0.0;
@@ -244,6 +355,9 @@ static int run_all(void)
         {"passive_bounded, supervised, with an emergency stop", 4, 1, 1, 0.0},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) run_arm(&cases[i]);
+#if defined(MEASURE_STACK)
+    print_stack();
+#endif
     word("end");
     end_line();
     return broken ? 2 : 0;

@@ -33,16 +33,12 @@ impl Request {
     }
 
     fn json(&self) -> Value {
-        let forbidden: Vec<_> = private_paths()
-            .iter()
-            .map(|path| format!("{}/", path.to_string_lossy()))
-            .collect();
         json!({
             "name": self.name,
             "archive": self.archive,
             "binaries": self.binaries,
             "linked": self.linked,
-            "forbidden": forbidden,
+            "forbidden": forbidden(),
         })
     }
 }
@@ -52,13 +48,25 @@ impl Request {
 /// # Errors
 /// When one of its files tells of this machine, or two archives of the same files differ.
 pub fn pack(requests: &[Request]) -> Outcome {
+    let all = Value::Array(requests.iter().map(Request::json).collect());
+    requested("archives", &all)
+}
+
+/// Asks with a file of JSON.
+fn requested(what: &str, request: &Value) -> Outcome {
     // `fmu` and `dist` may ask at the same time.
     let path = root().join(format!("target/requests-{}.json", std::process::id()));
-    let text = Value::Array(requests.iter().map(Request::json).collect()).to_string();
-    std::fs::write(&path, text).map_err(at(&path))?;
-    let outcome = ask("archives", Some(&path));
+    std::fs::write(&path, request.to_string()).map_err(at(&path))?;
+    let outcome = ask(what, Some(&path));
     let _ = std::fs::remove_file(&path);
     outcome
+}
+
+/// Folders of this machine, which must stand in no file.
+fn forbidden() -> Vec<String> {
+    let paths = private_paths();
+    let folder = |path: &std::ffi::OsString| format!("{}/", path.to_string_lossy());
+    paths.iter().map(folder).collect()
 }
 
 /// Says which committed descriptions are not what the declarations give; with `bless` writes them.
@@ -71,9 +79,15 @@ pub fn tables(folder: &Path) -> Outcome {
     ask("tables", Some(folder))
 }
 
-/// The C header of the law's library.
-pub fn law_header() -> Outcome<String> {
-    output(&mut program(built("catalogue")?, ["law-header"]))
+/// Writes the C headers of the law's library.
+pub fn law_headers(folder: &Path) -> Outcome {
+    ask("law-headers", Some(folder))
+}
+
+/// Writes what goes with the installed C library: licences and bill of materials of what is linked in.
+pub fn law_documents(prefix: &Path, linked: Vec<Component>) -> Outcome {
+    let request = json!({"prefix": prefix, "linked": linked, "forbidden": forbidden()});
+    requested("law-documents", &request)
 }
 
 /// Names of the functions that a library exports.

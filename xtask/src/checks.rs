@@ -19,7 +19,9 @@ static TEST: [Stage; 14] = [
     stage("tests built", &["rustdoc"], || {
         with_libclang(cargo(TESTS).arg("--no-run"))
     }),
-    stage("law", &["catalogue"], || crate::law::build_all(false)),
+    stage("law", &["catalogue"], || {
+        crate::law::build_all(false, Some(&root().join("target/law/installed")))
+    }),
     stage("pytest", &["fmu", "law", "tests built"], || {
         run(&mut Venv::ready()?.command(["-m", "pytest", "tests/system", "--durations=20"]))
     }),

@@ -11,7 +11,7 @@
 //! | `cargo xtask reproduce` | the paper's experiments | `results/report.html` |
 //! | `cargo xtask adversary --minutes N` | attacks on the energy tank | what breaks it, in `tests/adversary/regressions.txt` |
 //! | `cargo xtask fuzz [--calls N] [--seed S] [--fmu NAME]` | random calls on the built FMUs | a failing sequence, printed |
-//! | `cargo xtask law` | the C library | `target/law/{f64,f32}` |
+//! | `cargo xtask law [--prefix DIR]` | the C library | `target/law/{f64,f32}`, and an installation in DIR |
 //! | `cargo xtask bench` | how fast the FMUs and the harness are | |
 //! | `cargo xtask venv` | the Python environment of the others | `.venv` |
 //!
@@ -24,7 +24,7 @@
 //! | [`instructions`] | instructions per call, counted by callgrind |
 //! | [`linked`], [`component`] | what is linked into a library, with its licence texts |
 //! | [`licence`] | which licences may be |
-//! | [`law`] | the C library: header, static libraries, example |
+//! | [`law`] | the C library: headers, static libraries, examples, installation |
 //! | [`dist`] | archives for many platforms |
 //! | [`venv`] | the Python environment |
 //! | [`checks`], [`schedule`] | the stages of `test` and `ci`, and how they run side by side |
@@ -95,9 +95,12 @@ enum Command {
     },
     /// Build the C library into target/law: f64 and f32
     Law {
-        /// Also rewrite the committed header
+        /// Also rewrite the committed headers
         #[arg(long)]
         bless: bool,
+        /// Also install them here: include, lib with pkg-config and CMake files, share with licences and bill of materials
+        #[arg(long, value_name = "DIR")]
+        prefix: Option<std::path::PathBuf>,
     },
     /// Run the paper's experiments from a fresh clone to results/report.html
     Reproduce,
@@ -136,7 +139,7 @@ fn main() -> ExitCode {
         Command::Test { keep_going } => checks::test(keep_going),
         Command::Ci { keep_going } => checks::ci(keep_going),
         Command::Stage { name } => checks::one(&name),
-        Command::Law { bless } => law::build_all(bless),
+        Command::Law { bless, prefix } => law::build_all(bless, prefix.as_deref()),
         Command::Reproduce => stages::reproduce(),
         Command::Adversary { minutes, seed } => stages::adversary(minutes, seed),
         Command::Fuzz(request) => fuzz::fuzz(&request),

@@ -62,6 +62,23 @@ typedef struct {
   exo_kind kind;
 } field;
 
+/* The element that `name` means, from 0: `K[2]` is 1, a name without an index the only one. */
+static size_t element_of(const char *name, size_t length, int32_t count) {
+  char *end;
+  if (name[length] == '\0') {
+    if (count != 1) {
+      fail("expected an index, as in K[2]", name);
+    }
+    return 0;
+  }
+  unsigned long index = strtoul(name + length + 1, &end, 10);
+  if (strcmp(end, "]") != 0 || index < 1 || index > (unsigned long)count) {
+    fprintf(stderr, "replay: %s: expected an index from 1 to %d\n", name, (int)count);
+    exit(1);
+  }
+  return index - 1;
+}
+
 static field find(int is_arm, exo_role role, const char *name) {
   exo_variable variable;
   size_t length = strcspn(name, "[");
@@ -71,7 +88,7 @@ static field find(int is_arm, exo_role role, const char *name) {
       fail("the library has no variable of this name", name);
     }
     if (variable.role == role && strlen(variable.name) == length && strncmp(variable.name, name, length) == 0) {
-      size_t element = name[length] == '[' ? strtoul(name + length + 1, NULL, 10) - 1 : 0;
+      size_t element = element_of(name, length, variable.count);
       field found = {variable.offset + element * variable.stride, variable.kind};
       return found;
     }
@@ -167,7 +184,12 @@ int main(int argc, char **argv) {
   for (; fgets(line, sizeof line, file) != NULL; ticks++) {
     char *rest = line;
     for (size_t i = 0; i < n_in; i++) {
-      set(&in, reads[i], strtod(rest, &rest));
+      char *begin = rest;
+      double value = strtod(begin, &rest);
+      if (rest == begin) {
+        fail("a number is missing", line);
+      }
+      set(&in, reads[i], value);
     }
     if (is_arm) {
       accepted(exo_arm_tick(&law.arm, &in.arm, &out.arm, &refusal), "exo_arm_tick", &refusal);

@@ -1,7 +1,8 @@
 /*
  * The admittance laws as a C library: one axis, and the arm.
  *
- * Define EXO_LAW_F32 before including this header to use the library built in single precision.
+ * Define EXO_LAW_F32 before including this header to use the library built in single precision. A program that uses both
+ * includes exo_law_f32.h as well, whose names begin with exo_f32_, and defines nothing.
  * docs/real-time.md says how to link, in which order to call, and what is promised.
  */
 
@@ -47,7 +48,7 @@ enum exo_role
 typedef int32_t exo_role;
 #endif // __cplusplus
 
-// What a call returns; everything but `Ok` changed nothing.
+// What a call returns. Everything but `Ok` changed nothing, but that a tick left its outputs without torque.
 enum exo_status
 #ifdef __cplusplus
   : int32_t
@@ -72,15 +73,168 @@ enum exo_status
 typedef int32_t exo_status;
 #endif // __cplusplus
 
-#if !defined(EXO_LAW_F32)
+// Version of this header; exo_law_version() is that of the library.
+#define EXO_LAW_VERSION "0.1.0"
+#define EXO_LAW_VERSION_MAJOR 0
+#define EXO_LAW_VERSION_MINOR 1
+#define EXO_LAW_VERSION_PATCH 0
+
+// Admittance law: which reaction the nominal feels once the force is limited: law.
+enum {
+  // admittance filter alone, no reaction on the nominal; sticks to walls
+  EXO_LAW_STANDARD = 1,
+  // the paper's law: the nominal feels the unlimited coupling; creates energy once saturated
+  EXO_LAW_PASSIVE = 2,
+  // the nominal feels what the limits leave of the force; the spring winds up and sticks to walls
+  EXO_LAW_PASSIVE_APPLIED = 3,
+  // the nominal feels the limited force and the spring slips at the limit; passive and bounded
+  EXO_LAW_PASSIVE_BOUNDED = 4,
+};
+
+// How joint torques beyond tau_max are brought within: torque_limiting.
+enum {
+  // all joints by one factor; the force at the handle keeps its direction
+  EXO_TORQUE_LIMITING_SCALE = 1,
+  // each joint by itself; the force at the handle turns. Under the laws standard and passive only
+  EXO_TORQUE_LIMITING_CLIP = 2,
+};
+
+// Frame in which the force sensor's components are given: ft.frame.
+enum {
+  // base frame: x forward, y to the left, z up
+  EXO_FRAME_BASE = 1,
+  // link 3's frame: x along the link, z up when the link is level; it turns with the link
+  EXO_FRAME_SENSOR = 2,
+};
+
+// Where the force of the human is read: ft.source.
+enum {
+  // the input f_h, a force in the frame ft.frame
+  EXO_SOURCE_F_H = 1,
+  // the inputs ft.force and ft.torque, in the frame of a six-axis sensor that ft.mount turns
+  EXO_SOURCE_WRENCH = 2,
+};
+
+// Coordinates in which the nominal lives: space.
+enum {
+  // the handle's: a mass Lambda_n at the handle, with D_n, K, K_P, f_max (eq:obs_dyn_cart)
+  EXO_SPACE_TASK = 1,
+  // the joints': an arm of rigid links, nominal.*, with joint.D_n, joint.K, joint.K_P, tau_max (eq:obs_dyn)
+  EXO_SPACE_JOINT = 2,
+};
+
+// What is wrong with the force sensor; the law then sees no force: ft.fault.
+enum {
+  // nothing
+  EXO_SENSOR_FAULT_NONE = 0,
+  // a component is NaN or infinite
+  EXO_SENSOR_FAULT_NOT_FINITE = 1,
+  // a component has reached the end of its range
+  EXO_SENSOR_FAULT_OVER_RANGE = 2,
+  // a component has changed faster than a hand can push
+  EXO_SENSOR_FAULT_RATE = 3,
+  // the reading no longer changes
+  EXO_SENSOR_FAULT_STUCK = 4,
+  // the reading is exactly 0, or the sensor says that it is invalid
+  EXO_SENSOR_FAULT_DROPOUT = 5,
+};
+
+// How far the last tare has come: ft.tare_state.
+enum {
+  // none was asked for
+  EXO_TARE_STATE_OFF = 0,
+  // samples are being taken; the law sees no force
+  EXO_TARE_STATE_RUNNING = 1,
+  // ft.bias is that of the last tare
+  EXO_TARE_STATE_DONE = 2,
+  // ft.bias is what it was before; ft.tare_failure says why
+  EXO_TARE_STATE_FAILED = 3,
+};
+
+// Why the last tare failed: ft.tare_failure.
+enum {
+  // it did not
+  EXO_TARE_FAILURE_NONE = 0,
+  // the sensor had a fault
+  EXO_TARE_FAILURE_FAULT = 1,
+  // a joint moved by more than ft.tare_motion
+  EXO_TARE_FAILURE_MOVED = 2,
+  // the reading scattered by more than ft.tare_spread_force or ft.tare_spread_torque
+  EXO_TARE_FAILURE_UNSTEADY = 3,
+  // the bias would exceed ft.tare_max_force or ft.tare_max_torque: somebody leans on the handle
+  EXO_TARE_FAILURE_TOO_LARGE = 4,
+};
+
+// What the controller is doing: state.
+enum {
+  // not enabled, no torque
+  EXO_STATE_OFF = 0,
+  // waits for good sensors and a heartbeat, no torque
+  EXO_STATE_INIT = 1,
+  // waits for a rising edge of engage, no torque
+  EXO_STATE_READY = 2,
+  // the law runs
+  EXO_STATE_ENGAGED = 3,
+  // the law runs with its nominal standing still
+  EXO_STATE_HOLD = 4,
+  // the nominal stands still and the authority falls to 0
+  EXO_STATE_SOFT_STOP = 5,
+  // waits for an acknowledgement, no torque
+  EXO_STATE_FAULT = 6,
+  // engaged or hold, but the tank is below 0: no torque until it is repaid
+  EXO_STATE_DEBT = 7,
+};
+
+// Why the law does not simply run; of several reasons the one with the smallest number: diagnostic, first_fault.
+enum {
+  // the law runs or holds
+  EXO_DIAGNOSTIC_NONE = 0,
+  // fault: pressed
+  EXO_DIAGNOSTIC_EMERGENCY_STOP = 1,
+  // fault: the joint angles have one, encoder.fault
+  EXO_DIAGNOSTIC_ENCODER_INVALID = 2,
+  // fault: the law's result is not
+  EXO_DIAGNOSTIC_NOT_FINITE = 3,
+  // fault: unchanged for heartbeat_timeout, or never changed
+  EXO_DIAGNOSTIC_HEARTBEAT_LOST = 4,
+  // fault: the force sensor has one, ft.fault
+  EXO_DIAGNOSTIC_FT_INVALID = 5,
+  // warning: no torque until the tank is repaid
+  EXO_DIAGNOSTIC_ENERGY_DEBT = 6,
+  // warning: motion beyond dq_max or ddq_max, or q is doubted, encoder.fault
+  EXO_DIAGNOSTIC_OUTSIDE_BOUNDS = 7,
+  // warning: limits have acted for saturation_time
+  EXO_DIAGNOSTIC_SATURATED = 8,
+  // the fault's cause is gone; waits for a rising edge of acknowledge
+  EXO_DIAGNOSTIC_NOT_ACKNOWLEDGED = 9,
+  // enable is false
+  EXO_DIAGNOSTIC_NOT_ENABLED = 10,
+  // sensors and heartbeat not yet good for init_time
+  EXO_DIAGNOSTIC_PREPARING = 11,
+  // engage is false
+  EXO_DIAGNOSTIC_NOT_ENGAGED = 12,
+  // engage has not risen since the controller was ready
+  EXO_DIAGNOSTIC_ENGAGE_STUCK = 13,
+};
+
+// What is wrong with the sensed positions: encoder.fault.
+enum {
+  // nothing
+  EXO_ENCODER_FAULT_NONE = 0,
+  // one is NaN or infinite
+  EXO_ENCODER_FAULT_NOT_FINITE = 1,
+  // one lies beyond encoder.range
+  EXO_ENCODER_FAULT_OVER_RANGE = 2,
+  // one has moved faster than the robot can since the last reading, and not as it moved before
+  EXO_ENCODER_FAULT_JUMP = 3,
+  // one has stayed the same while its force changed by as much as should move it
+  EXO_ENCODER_FAULT_STUCK = 4,
+  // encoder_valid is false
+  EXO_ENCODER_FAULT_INVALID = 5,
+};
+
 // The law's number: double precision, or single precision in the packages and libraries named f32.
 typedef double exo_real;
-#endif
-
-#if defined(EXO_LAW_F32)
-// The law's number: double precision, or single precision in the packages and libraries named f32.
-typedef float exo_real;
-#endif
 
 // The lengths that place the handle. The start values are the exoskeleton arm's.
 typedef struct exo_arm_kinematics {
@@ -95,16 +249,16 @@ typedef struct exo_arm_kinematics {
 } exo_arm_kinematics;
 
 // What the joints' positions must keep to. The arm's joints turn less than once.
-typedef struct EncoderParameters {
+typedef struct exo_arm_encoder {
   // Largest absolute joint angle: a reading beyond it cannot be.
-  exo_real range[3];
+  exo_real range[3]; // rad
   // Change of a joint's torque in which its angle must change, too, in its last bit at least; 0 = off. Above what
   // friction holds.
-  exo_real stuck_torque[3];
+  exo_real stuck_torque[3]; // N.m
   // Readings in a row after which a jump beyond dq_max or encoder.range is a fault, and after which a fault is over; 0 =
   // jumps are believed.
   int32_t samples;
-} EncoderParameters;
+} exo_arm_encoder;
 
 // Everything beyond the sensor that the hand does not carry: handle, adapter, half of the sensor. At the start there is none,
 // on an arm that stands upright.
@@ -335,7 +489,7 @@ typedef struct exo_arm_parameters {
   // Where the handle is.
   struct exo_arm_kinematics kinematics;
   // The joints' encoders.
-  struct EncoderParameters encoder;
+  struct exo_arm_encoder encoder;
   // The hand's force sensor.
   struct exo_arm_force_sensor ft;
   // Slowing before a singularity.
@@ -488,7 +642,7 @@ typedef struct exo_arm_outputs {
   exo_real e_q[3]; // rad
   // What is wrong with the joint angles of this tick. A jump, or an angle over range, is doubted for encoder.samples
   // readings: the law goes on at its last velocity. Then there is no torque.
-  int32_t encoder_fault;
+  int32_t encoder_fault; // 0 none, 1 not_finite, 2 over_range, 3 jump, 4 stuck, 5 invalid
 } exo_arm_outputs;
 
 // One variable of a struct.
@@ -510,7 +664,7 @@ typedef struct exo_variable {
 // Parameters of the law of one axis. Any bits may come from C: what cannot be used is refused by name.
 typedef struct exo_axis_parameters {
   // Admittance law.
-  int32_t law; // 1 standard, 2 passive, 3 passive_applied, 4 passive_bounded, 5 natural, 6 sliding_mode
+  int32_t law; // 1 standard, 2 passive, 3 passive_applied, 4 passive_bounded
   // Nominal mass (eq:nom_dyn).
   exo_real M_n; // kg
   // Nominal damping (eq:nom_dyn).
@@ -618,15 +772,17 @@ typedef struct exo_axis_outputs {
   int32_t debt; // 0 or 1
   // What is wrong with q at this tick. A jump, or a position over range, is doubted for encoder.samples readings: the
   // law goes on at its last velocity. Then there is no force. 0 but for the laws 1 to 4 in torque form.
-  int32_t encoder_fault; // 0 none, 1 not_finite, 2 over_range, 3 rate, 4 stuck, 5 dropout
+  int32_t encoder_fault; // 0 none, 1 not_finite, 2 over_range, 3 jump, 4 stuck, 5 invalid
 } exo_axis_outputs;
 
 #ifdef __cplusplus
 extern "C" {
 #endif // __cplusplus
 
-// Size of the number that the library was built with, in bytes: must equal `sizeof(exo_real)`. Where it does not, the
-// header was read with the other setting of `EXO_LAW_F32`.
+// Version of the library, as text: `EXO_LAW_VERSION` of the header that belongs to it.
+const char *exo_law_version(void);
+
+// Size of the number that the library was built with, in bytes: `sizeof(exo_real)`.
 size_t exo_law_real_size(void);
 
 // Writes the start values into `parameters`.
@@ -647,8 +803,9 @@ exo_status exo_arm_tune(struct exo_arm_state *state,
                         const struct exo_arm_parameters *parameters,
                         struct exo_refusal *refusal);
 
-// One tick, every T. Where the status is not 0, `outputs` and `state` stay as they were; `refusal`, which may be null, says
-// which input was refused.
+// One tick, every T. Where the status is not 0, `state` stays as it was and `outputs` hold no torque: tau_a, f_a and tau_demand
+// are 0, the others as they were. The robot is then the caller's: brakes, or whatever needs no law. `refusal`, which may
+// be null, says which input was refused.
 exo_status exo_arm_tick(struct exo_arm_state *state,
                         const struct exo_arm_inputs *inputs,
                         struct exo_arm_outputs *outputs,
@@ -675,8 +832,9 @@ exo_status exo_axis_tune(struct exo_axis_state *state,
                          const struct exo_axis_parameters *parameters,
                          struct exo_refusal *refusal);
 
-// One tick, every T. Where the status is not 0, `outputs` and `state` stay as they were; `refusal`, which may be null, says
-// which input was refused.
+// One tick, every T. Where the status is not 0, `state` stays as it was and `outputs` hold no torque: tau_a and tau_demand
+// are 0, the others as they were. The robot is then the caller's: brakes, or whatever needs no law. `refusal`, which may
+// be null, says which input was refused.
 exo_status exo_axis_tick(struct exo_axis_state *state,
                          const struct exo_axis_inputs *inputs,
                          struct exo_axis_outputs *outputs,
@@ -688,5 +846,46 @@ exo_status exo_axis_variable(size_t i, struct exo_variable *variable);
 #ifdef __cplusplus
 }  // extern "C"
 #endif  // __cplusplus
+
+#ifdef EXO_LAW_F32
+// The plain names stand for those of single precision.
+#include "exo_law_f32.h"
+#define exo_arm_defaults exo_f32_arm_defaults
+#define exo_arm_encoder exo_f32_arm_encoder
+#define exo_arm_force_sensor exo_f32_arm_force_sensor
+#define exo_arm_init exo_f32_arm_init
+#define exo_arm_inputs exo_f32_arm_inputs
+#define exo_arm_inputs_defaults exo_f32_arm_inputs_defaults
+#define exo_arm_joint exo_f32_arm_joint
+#define exo_arm_kinematics exo_f32_arm_kinematics
+#define exo_arm_link exo_f32_arm_link
+#define exo_arm_nominal exo_f32_arm_nominal
+#define exo_arm_outputs exo_f32_arm_outputs
+#define exo_arm_parameters exo_f32_arm_parameters
+#define exo_arm_sensor_checks exo_f32_arm_sensor_checks
+#define exo_arm_singularity exo_f32_arm_singularity
+#define exo_arm_state exo_f32_arm_state
+#define exo_arm_stiff_hand exo_f32_arm_stiff_hand
+#define exo_arm_supervision exo_f32_arm_supervision
+#define exo_arm_tare exo_f32_arm_tare
+#define exo_arm_tick exo_f32_arm_tick
+#define exo_arm_tool exo_f32_arm_tool
+#define exo_arm_tune exo_f32_arm_tune
+#define exo_arm_variable exo_f32_arm_variable
+#define exo_axis_defaults exo_f32_axis_defaults
+#define exo_axis_init exo_f32_axis_init
+#define exo_axis_inputs exo_f32_axis_inputs
+#define exo_axis_inputs_defaults exo_f32_axis_inputs_defaults
+#define exo_axis_outputs exo_f32_axis_outputs
+#define exo_axis_parameters exo_f32_axis_parameters
+#define exo_axis_state exo_f32_axis_state
+#define exo_axis_tick exo_f32_axis_tick
+#define exo_axis_tune exo_f32_axis_tune
+#define exo_axis_variable exo_f32_axis_variable
+#define exo_law_real_size exo_f32_law_real_size
+#define exo_law_version exo_f32_law_version
+#define exo_real exo_f32_real
+#define exo_refusal exo_f32_refusal
+#endif
 
 #endif  /* EXO_LAW_H */

@@ -1,12 +1,14 @@
 //! The law of ArmController.fmu.
 
 use crate::Real;
-use crate::pointer::{self, Cause, Place, initialize, read, refusing, with_law};
+use crate::pointer::{self, Cause, Place, initialize, read, refusing, with_law, zero};
 use crate::refusal::{Bad, Refusal, Status, truths};
 use crate::storage::{Storage, fits};
 use crate::variable::{self, Variable};
 use arm_law::arm_law::NotFinite;
 use arm_law::{ArmInputs, ArmLaw, ArmOutputs, ArmParameters};
+use core::mem::offset_of;
+use core::ops::Range;
 use declaration::Rows as _;
 
 /// Memory of an arm's law. Its content is the library's; it may be copied as bytes, to keep and restore a state.
@@ -21,6 +23,17 @@ unsafe impl Storage for ArmState {
     const MARK: u64 = 0x6578_6f5f_6172_6d32; // "exo_arm2"
 }
 const _: () = assert!(fits::<ArmState>());
+
+/// What a tick that is refused leaves at 0.
+const TORQUES: [Range<usize>; 3] = [
+    field(offset_of!(ArmOutputs, tau_a)),
+    field(offset_of!(ArmOutputs, f_a)),
+    field(offset_of!(ArmOutputs, tau_demand)),
+];
+
+const fn field(offset: usize) -> Range<usize> {
+    offset..offset + size_of::<[Real; 3]>()
+}
 
 /// Writes the start values into `parameters`.
 #[unsafe(no_mangle)]
@@ -63,8 +76,9 @@ pub extern "C" fn exo_arm_tune(
     })
 }
 
-/// One tick, every T. Where the status is not 0, `outputs` and `state` stay as they were; `refusal`, which may be null, says
-/// which input was refused.
+/// One tick, every T. Where the status is not 0, `state` stays as it was and `outputs` hold no torque: tau_a, f_a and tau_demand
+/// are 0, the others as they were. The robot is then the caller's: brakes, or whatever needs no law. `refusal`, which may
+/// be null, says which input was refused.
 #[unsafe(no_mangle)]
 pub extern "C" fn exo_arm_tick(
     state: *mut ArmState,
@@ -72,6 +86,7 @@ pub extern "C" fn exo_arm_tick(
     outputs: *mut ArmOutputs,
     refusal: *mut Refusal,
 ) -> Status {
+    zero(outputs, &TORQUES);
     refusing(refusal, || {
         let (inputs, outputs) = (read(inputs)?, Place::at(outputs)?);
         truths(&inputs, ArmInputs::ROWS)?;

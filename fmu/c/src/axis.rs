@@ -1,11 +1,13 @@
 //! One axis: the law of TestbedController.fmu in torque form, for the four laws of the paper's family.
 
 use crate::Real;
-use crate::pointer::{self, Cause, Place, initialize, read, refusing, with_law};
+use crate::pointer::{self, Cause, Place, initialize, read, refusing, with_law, zero};
 use crate::refusal::{Bad, Refusal, Status, truths};
 use crate::storage::{Storage, fits};
 use crate::variable::{self, Variable};
 use admittance::one_axis::{AxisInputs, AxisOutputs, AxisParameters, NotFinite, OneAxis};
+use core::mem::offset_of;
+use core::ops::Range;
 use declaration::Rows as _;
 
 /// Memory of one axis's law. Its content is the library's; it may be copied as bytes, to keep and restore a state.
@@ -20,6 +22,16 @@ unsafe impl Storage for AxisState {
     const MARK: u64 = 0x6578_6f5f_6178_6932; // "exo_axi2"
 }
 const _: () = assert!(fits::<AxisState>());
+
+/// What a tick that is refused leaves at 0.
+const TORQUES: [Range<usize>; 2] = [
+    field(offset_of!(AxisOutputs, tau_a)),
+    field(offset_of!(AxisOutputs, tau_demand)),
+];
+
+const fn field(offset: usize) -> Range<usize> {
+    offset..offset + size_of::<Real>()
+}
 
 /// Writes the start values into `parameters`.
 #[unsafe(no_mangle)]
@@ -62,8 +74,9 @@ pub extern "C" fn exo_axis_tune(
     })
 }
 
-/// One tick, every T. Where the status is not 0, `outputs` and `state` stay as they were; `refusal`, which may be null, says
-/// which input was refused.
+/// One tick, every T. Where the status is not 0, `state` stays as it was and `outputs` hold no torque: tau_a and tau_demand
+/// are 0, the others as they were. The robot is then the caller's: brakes, or whatever needs no law. `refusal`, which may
+/// be null, says which input was refused.
 #[unsafe(no_mangle)]
 pub extern "C" fn exo_axis_tick(
     state: *mut AxisState,
@@ -71,6 +84,7 @@ pub extern "C" fn exo_axis_tick(
     outputs: *mut AxisOutputs,
     refusal: *mut Refusal,
 ) -> Status {
+    zero(outputs, &TORQUES);
     refusing(refusal, || {
         let (inputs, outputs) = (read(inputs)?, Place::at(outputs)?);
         truths(&inputs, AxisInputs::ROWS)?;

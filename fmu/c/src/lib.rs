@@ -17,7 +17,8 @@
 //! * Choices and Booleans are `int32_t`, as in the FMU; 0 is false, 1 is true, anything else is refused.
 //! * Positions that are sensed are `double` in both precisions.
 //! * No function allocates, blocks, keeps a pointer, or has memory of its own. A state belongs to one thread at a time.
-//! * A call that is refused says so by its [`Status`](refusal::Status) and leaves state and outputs as they were.
+//! * A call that is refused says so by its [`Status`](refusal::Status) and leaves the state as it was; a tick's outputs then hold
+//!   no torque.
 
 #![no_std]
 #![allow(
@@ -35,8 +36,20 @@ pub mod variable;
 
 pub use admittance::Real;
 
-/// Size of the number that the library was built with, in bytes: must equal `sizeof(exo_real)`. Where it does not, the
-/// header was read with the other setting of `EXO_LAW_F32`.
+use core::ffi::{CStr, c_char};
+
+/// Version of the library, as text: `EXO_LAW_VERSION` of the header that belongs to it.
+#[unsafe(no_mangle)]
+pub extern "C" fn exo_law_version() -> *const c_char {
+    const VERSION: &CStr =
+        match CStr::from_bytes_with_nul(concat!(env!("CARGO_PKG_VERSION"), "\0").as_bytes()) {
+            Ok(version) => version,
+            Err(_) => c"",
+        };
+    VERSION.as_ptr()
+}
+
+/// Size of the number that the library was built with, in bytes: `sizeof(exo_real)`.
 #[unsafe(no_mangle)]
 pub extern "C" fn exo_law_real_size() -> usize {
     size_of::<Real>()

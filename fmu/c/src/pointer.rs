@@ -6,6 +6,7 @@
 
 use crate::refusal::{Bad, Refusal, Status};
 use crate::storage::{Cell, Storage};
+use core::ops::Range;
 
 /// Checks a pointer.
 fn check<T>(pointer: *const T) -> Result<(), Status> {
@@ -40,6 +41,23 @@ impl<T> Place<T> {
     pub(crate) fn write(self, value: T) {
         // SAFETY: checked by `at`; that an object is there is the caller's contract.
         unsafe { self.0.write(value) }
+    }
+}
+
+/// Writes zeros over the fields `at` (bytes from the begin of the struct), all numbers, where there is a struct.
+#[inline]
+pub(crate) fn zero<T>(outputs: *mut T, at: &[Range<usize>]) {
+    let Ok(Place(outputs)) = Place::at(outputs) else {
+        return;
+    };
+    for at in at {
+        if at.start <= at.end && at.end <= size_of::<T>() {
+            // SAFETY: within the object that is there by the caller's contract. Nothing is read: it may be uninitialized.
+            unsafe {
+                let begin = outputs.cast::<u8>().add(at.start);
+                begin.write_bytes(0, at.end - at.start);
+            }
+        }
     }
 }
 

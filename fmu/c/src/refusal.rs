@@ -6,7 +6,7 @@ use core::ffi::c_char;
 use declaration::check::Expected;
 use declaration::{Access, Variable as Row};
 
-/// What a call returns; everything but `Ok` changed nothing.
+/// What a call returns. Everything but `Ok` changed nothing, but that a tick left its outputs without torque.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(i32)]
 pub enum Status {

@@ -194,7 +194,7 @@ fn a_bad_gain_is_refused_and_the_gains_stay() {
 }
 
 #[test]
-fn a_bad_input_is_refused_by_name_and_state_and_outputs_are_kept() {
+fn a_bad_input_is_refused_by_name_and_the_state_is_kept() {
     let cases: [Case<ArmInputs>; 3] = [
         (|i| i.q[1] = f64::NAN, "q[2] = NaN: expected a finite value"),
         (
@@ -208,7 +208,7 @@ fn a_bad_input_is_refused_by_name_and_state_and_outputs_are_kept() {
     ];
     for (spoil, expected) in cases {
         let (mut state, mut outputs) = (running(), memory::<ArmOutputs>());
-        let before = (bytes(&*state), bytes(&*outputs));
+        let before = bytes(&*state);
         let mut bad = inputs();
         spoil(&mut bad);
         let mut refusal = Refusal::default();
@@ -217,7 +217,7 @@ fn a_bad_input_is_refused_by_name_and_state_and_outputs_are_kept() {
             (status, message(&refusal).as_str()),
             (Status::Refused, expected)
         );
-        assert!((bytes(&*state), bytes(&*outputs)) == before, "{expected}");
+        assert!(bytes(&*state) == before, "{expected}");
     }
 }
 

@@ -6,11 +6,12 @@
 //! catalogue archives REQUESTS      packs; a file of JSON, a list of requests
 //! catalogue tables FOLDER          writes <Name>.txt for the C host
 //! catalogue functions              prints the names of the functions that a library exports
-//! catalogue law-header             prints the C header of the law's library
+//! catalogue law-headers FOLDER     writes the C headers of the law's library
+//! catalogue law-documents REQUEST  writes its licences and its bill of materials; a file of JSON
 //! catalogue laws                   prints the README's table of the laws
 //! ```
 
-use catalogue::request::Request;
+use catalogue::request::{LawDocuments, Request};
 use catalogue::{FMUS, Fmu, functions, header, laws, table};
 use std::path::Path;
 use std::process::ExitCode;
@@ -19,7 +20,7 @@ use std::process::ExitCode;
 #[path = "../../export/examples/integrator.rs"]
 mod integrator;
 
-const USAGE: &str = "usage: catalogue descriptions | bless | archives REQUESTS | tables FOLDER | functions | law-header | laws";
+const USAGE: &str = "usage: catalogue descriptions | bless | archives REQUESTS | tables FOLDER | functions | law-headers FOLDER | law-documents REQUEST | laws";
 
 fn main() -> ExitCode {
     let words: Vec<_> = std::env::args().skip(1).collect();
@@ -39,7 +40,8 @@ fn main() -> ExitCode {
             println!("{}", laws::table());
             Ok(())
         }
-        ["law-header"] => header::header().map(|text| print!("{text}")),
+        ["law-headers", folder] => law_headers(Path::new(folder)),
+        ["law-documents", request] => law_documents(Path::new(request)),
         _ => Err(USAGE.to_owned()),
     };
     match outcome {
@@ -81,6 +83,24 @@ fn archives(requests: &Path) -> Result<(), String> {
             .ok_or_else(|| format!("no FMU is named {}", request.name))?;
         let bytes = request.archive(fmu)?;
         replace(&request.archive, &bytes).map_err(at(&request.archive))?;
+    }
+    Ok(())
+}
+
+fn law_headers(folder: &Path) -> Result<(), String> {
+    for (name, text) in header::NAMES.iter().zip(header::headers()?) {
+        let path = folder.join(name);
+        replace(&path, text.as_bytes()).map_err(at(&path))?;
+    }
+    Ok(())
+}
+
+fn law_documents(request: &Path) -> Result<(), String> {
+    let text = std::fs::read_to_string(request).map_err(at(request))?;
+    let documents: LawDocuments =
+        serde_json::from_str(&text).map_err(|error| format!("{}: {error}", request.display()))?;
+    for (path, bytes) in documents.files()? {
+        replace(&path, &bytes).map_err(at(&path))?;
     }
     Ok(())
 }

@@ -2,7 +2,7 @@
 
 use crate::{Fmu, wiring};
 use model_description::archive::{self, Binary, Contents};
-use model_description::{Component, Guide};
+use model_description::{Component, Guide, Product, licences, sbom};
 use serde::Deserialize;
 use std::path::PathBuf;
 
@@ -79,6 +79,43 @@ impl Request {
         } else {
             Err(format!("{}: two archives differ", fmu.name))
         }
+    }
+}
+
+/// What goes with the C library, which is no archive: its licences and its bill of materials.
+#[derive(Debug, Deserialize)]
+pub struct LawDocuments {
+    /// The folder in which the library is installed.
+    pub prefix: PathBuf,
+    /// What is linked into it.
+    pub linked: Vec<Component>,
+    /// What must stand in none of its files: folders of this machine.
+    pub forbidden: Vec<String>,
+}
+
+impl LawDocuments {
+    /// Paths and contents.
+    ///
+    /// # Errors
+    /// When a file tells of this machine.
+    pub fn files(&self) -> Result<Vec<(PathBuf, Vec<u8>)>, String> {
+        let product = Product {
+            name: "exo-law",
+            about: "The admittance laws as a C library",
+            guid: None,
+        };
+        let licences = licences::files(&product, &self.linked);
+        let bill = sbom(&product, &self.linked).into_bytes();
+        let licences = licences
+            .into_iter()
+            .map(|(path, text)| (format!("share/licenses/exo_law/{path}"), text));
+        let files = licences.chain([("share/sbom/exo_law.cdx.json".to_owned(), bill)]);
+        files
+            .map(|(path, bytes)| match carried(&self.forbidden, &bytes) {
+                Some(folder) => Err(format!("{path} carries the path {folder}")),
+                None => Ok((self.prefix.join(path), bytes)),
+            })
+            .collect()
     }
 }
 

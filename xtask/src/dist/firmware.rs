@@ -3,9 +3,10 @@
 use super::compile;
 use super::toolchain::{Toolchains, with_libraries};
 use crate::build::remapping;
-use crate::law::{self, PRECISIONS};
+use crate::law::pack::{Binutils, pack};
+use crate::law::{self, PRECISIONS, Precision};
 use crate::process::{Failure, Outcome, answer, at, program, root, run};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// Rust's name of the platform.
@@ -20,7 +21,6 @@ const CALLED: [(&str, &[&str]); 2] = [
             "exo_arm_defaults",
             "exo_arm_init",
             "exo_arm_tune",
-            "exo_arm_tune_joints",
         ],
     ),
     (
@@ -55,12 +55,15 @@ pub fn build(tools: &Toolchains) -> Outcome<Result<String, String>> {
                 "CARGO_ENCODED_RUSTFLAGS",
                 remapping(&compile::renamed(&rust))?,
             ))?;
-        let library = compile::folder()
-            .join(TARGET)
-            .join("law")
-            .join(precision.library);
+        let library = library(precision);
+        let parts = Binutils::unpacked(&binutils, "arm-none-eabi-");
+        pack(&made(precision), precision, &parts, &library)?;
         for (law, functions) in CALLED {
-            let text = linked(&binutils, &library, functions)?;
+            let functions: Vec<_> = functions
+                .iter()
+                .map(|name| name.replacen("exo_", precision.prefix, 1))
+                .collect();
+            let text = linked(&binutils, &library, &functions)?;
             sizes.push(format!("{law} {} {text}", precision.folder));
         }
         let bytes = std::fs::read(&library).map_err(at(&library))?;
@@ -70,12 +73,21 @@ pub fn build(tools: &Toolchains) -> Outcome<Result<String, String>> {
             .join(TARGET)
             .join(precision.folder);
         crate::fmu::replace(&folder.join(precision.library), &bytes)?;
-        crate::fmu::replace(
-            &folder.join("exo_law.h"),
-            crate::catalogue::law_header()?.as_bytes(),
-        )?;
+        crate::catalogue::law_headers(&folder)?;
     }
     Ok(Ok(format!("bytes of code: {}", sizes.join(", "))))
+}
+
+/// What cargo has made.
+pub fn made(precision: &Precision) -> PathBuf {
+    let folder = compile::folder().join(TARGET).join("law");
+    folder.join(precision.library)
+}
+
+/// Where the packed library lies.
+pub fn library(precision: &Precision) -> PathBuf {
+    let folder = compile::folder().join(TARGET).join("packed");
+    folder.join(precision.library)
 }
 
 /// The linker.
@@ -85,7 +97,7 @@ pub fn linker(binutils: &Path) -> Command {
 
 /// Size of a program that calls `functions` and nothing else, in bytes: code and constants. That it links shows that the
 /// library needs `core` only and that no path panics.
-fn linked(binutils: &Path, library: &Path, functions: &[&str]) -> Outcome<u64> {
+fn linked(binutils: &Path, library: &Path, functions: &[String]) -> Outcome<u64> {
     let image = library.with_extension("elf");
     let mut link = linker(binutils);
     link.args(["--gc-sections", "--no-undefined", "-e", "0"]);

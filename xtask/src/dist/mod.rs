@@ -10,6 +10,7 @@
 //! | [`debian`], [`toolchain`] | compilers, linkers, emulators, fetched into `target/toolchains` |
 //! | [`compile`] | one platform's libraries |
 //! | [`mod@firmware`], [`processor`] | the C library for a microcontroller, and run emulated |
+//! | [`mod@stack`] | the stack that it takes there |
 //! | [`mod@inspect`] | exports, needed libraries, floor of the C library |
 //! | [`runtime`] | what the tools link in, with its licences |
 //! | [`host`] | the C host, and what two platforms must agree on |
@@ -22,6 +23,7 @@ mod inspect;
 mod platform;
 mod processor;
 mod runtime;
+mod stack;
 mod toolchain;
 
 use crate::build::forbid_private_paths;
@@ -37,6 +39,7 @@ use inspect::inspect;
 use platform::{GLIBC, PLATFORMS, Platform, Runner};
 use std::time::Instant;
 use toolchain::Toolchains;
+pub use toolchain::with_libraries;
 
 /// One platform's row in the summary.
 struct Row {

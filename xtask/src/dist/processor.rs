@@ -8,6 +8,7 @@ use super::compile;
 use super::debian::quietly;
 use super::firmware::{TARGET, linker};
 use super::host::{Texts, compare, printed};
+use super::stack;
 use super::toolchain::{Toolchains, limited, with_libraries, with_zig};
 use crate::law::{self, PRECISIONS, Precision};
 use crate::process::{Failure, Outcome, at, program, root};
@@ -27,19 +28,27 @@ pub fn run(tools: &Toolchains) -> Outcome<Result<String, String>> {
         (Err(reason), ..) | (_, Err(reason), _) | (.., Err(reason)) => return Ok(Err(reason)),
     };
     let (mut here, mut there) = (Texts::new(), Texts::new());
+    let mut stacks = Vec::new();
     for precision in &PRECISIONS {
         let executable = on_this_machine(precision)?;
         let text = printed(&mut program::<&Path>(&executable, []), &executable)?;
         here.insert(precision.folder, text);
-        let image = on_the_microcontroller(precision, &zig, &binutils)?;
-        let mut emulated = limited(qemu.join("usr/bin/qemu-arm-static"));
-        // A processor with the Cortex-M4F's floating-point unit, and no more of it in use.
-        emulated.args(["-cpu", "cortex-a15"]).arg(&image);
-        there.insert(precision.folder, printed(&mut emulated, &image)?);
+        let emulated = |define: Option<&str>| {
+            let image = on_the_microcontroller(precision, define, &zig, &binutils)?;
+            let mut emulated = limited(qemu.join("usr/bin/qemu-arm-static"));
+            // A processor with the Cortex-M4F's floating-point unit, and no more of it in use.
+            emulated.args(["-cpu", "cortex-a15"]).arg(&image);
+            printed(&mut emulated, &image)
+        };
+        there.insert(precision.folder, emulated(None)?);
+        stacks.push(stack::check(precision, &emulated(Some(stack::PAINTED))?)?);
     }
     let lines = compare(&here, &there)
         .map_err(|what| Failure::Found(format!("the law on {TARGET} differs: {what}")))?;
-    Ok(Ok(format!("run, {lines} lines equal bit for bit")))
+    Ok(Ok(format!(
+        "run, {lines} lines equal bit for bit; {}",
+        stacks.join("; ")
+    )))
 }
 
 fn on_this_machine(precision: &Precision) -> Outcome<PathBuf> {
@@ -52,9 +61,15 @@ fn on_this_machine(precision: &Precision) -> Outcome<PathBuf> {
     Ok(executable)
 }
 
-fn on_the_microcontroller(precision: &Precision, zig: &Path, binutils: &Path) -> Outcome<PathBuf> {
+fn on_the_microcontroller(
+    precision: &Precision,
+    define: Option<&str>,
+    zig: &Path,
+    binutils: &Path,
+) -> Outcome<PathBuf> {
     let folder = folder()?;
-    let object = folder.join(format!("law-{TARGET}-{}.o", precision.folder));
+    let what = if define.is_some() { "stack" } else { "law" };
+    let object = folder.join(format!("{what}-{TARGET}-{}.o", precision.folder));
     let image = object.with_extension("elf");
     let mut compiler = program(zig.join("python"), ["-m", "ziglang", "cc"]);
     compiler.args(["-target", "thumb-freestanding-eabihf", "-mcpu=cortex_m4"]);
@@ -65,16 +80,13 @@ fn on_the_microcontroller(precision: &Precision, zig: &Path, binutils: &Path) ->
         "-fno-asynchronous-unwind-tables",
     ]);
     source(with_zig(&mut compiler, zig), precision);
-    compiled(compiler.arg("-c").arg("-o").arg(&object))?;
+    compiled(compiler.args(define).arg("-c").arg("-o").arg(&object))?;
     let mut link = linker(binutils);
     link.args(["--gc-sections", "-e", "start", "-Ttext=0x10000"]);
     link.arg(&object);
-    link.arg(
-        compile::folder()
-            .join(TARGET)
-            .join("law")
-            .join(precision.library),
-    );
+    link.arg(super::firmware::library(precision));
+    // The program's own arithmetic in double precision, for which there is no other library here.
+    link.arg(super::firmware::made(precision));
     compiled(with_libraries(&mut link, binutils).arg("-o").arg(&image))?;
     Ok(image)
 }
