@@ -29,7 +29,7 @@ from exo.simulate import Plan, simulate
 from exo.systems import closed, ssp, system
 
 from foreign.cosim import cosim
-from foreign.ecos import ecos
+from foreign.ecos import ecos, tbb
 
 NAMESPACES = {"ssd": ssp.SSD, "ssc": ssp.SSC, "ssv": ssp.SSV, "oms": ssp.OMS}
 #: A step whose multiples are exact in seconds and in libcosim's nanoseconds: 1,953,125 ns.
@@ -271,3 +271,10 @@ def test_a_set_that_cannot_be_bound_is_named(fmu_dir: Path, tmp_path: Path, sets
 
 def command(fmu_dir: Path, folder: Path, *words: str) -> Result:
     return CliRunner().invoke(app, ["ssp", "--out", str(folder), "--fmu-dir", str(fmu_dir), *words])
+
+
+def test_ecos_without_its_library_fails_with_the_library_s_name(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("foreign.ecos.metadata.files", lambda _: [])
+    monkeypatch.setattr("foreign.ecos.find_library", lambda _: None)
+    with pytest.raises(AssertionError, match=r"Ecos is not run: libtbb\.so\.12 is missing"):
+        tbb()
