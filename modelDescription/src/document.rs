@@ -1,12 +1,11 @@
 //! The interface document `documentation/index.html`: one page that needs nothing but itself.
 
-use crate::entry::{Entry, Kind};
 use crate::guide::{self, Guide};
-use crate::html::{escape, table};
+use crate::html::{Section, escape, table};
 use crate::interface::Interface;
-use crate::quick_start;
-use crate::xml::{self, LOG_CATEGORIES, double, variability};
-use declaration::{Causality, Stepping};
+use crate::xml::{self, LOG_CATEGORIES, double};
+use crate::{quick_start, variables};
+use declaration::Stepping;
 use std::fmt::Write as _;
 
 /// Where the C interface deviates from FMI 2.0.5: more lenient than its table of legal calls (section 4.2.4), because
@@ -27,15 +26,7 @@ const DEVIATIONS: [&str; 7] = [
     "A step may go past the stop time.",
 ];
 
-const STYLE: &str = "\
-body{font:16px/1.5 system-ui,sans-serif;color:#1b1f24;max-width:64rem;margin:2rem auto;padding:0 1rem}
-h1{margin-bottom:0}h1+p{margin-top:.2rem;color:#57606a;font-size:1.15rem}h2{margin-top:2.2rem;border-bottom:1px solid #d0d7de}
-table{border-collapse:collapse;width:100%;font-size:.92rem}th{text-align:left;background:#eef3f8}
-th,td{padding:.3rem .6rem;border-bottom:1px solid #d8dee4;vertical-align:top}td.n{text-align:right;font-variant-numeric:tabular-nums;white-space:nowrap}
-figure{margin:1rem 0}figure svg{width:100%;height:auto;background:#fff;border-radius:6px}
-pre{background:#f3f6fa;padding:.7rem 1rem;overflow-x:auto;font-size:.88rem}
-code{font-family:ui-monospace,monospace;font-size:.92em}td code{white-space:nowrap}
-@media (prefers-color-scheme:dark){body{background:#0d1117;color:#e6edf3}h1+p{color:#9aa4af}th,pre{background:#161d27}th,td,h2{border-color:#30363d}a{color:#6cb6ff}}";
+const STYLE: &str = include_str!("document.css");
 
 /// Writes the document.
 ///
@@ -43,54 +34,76 @@ code{font-family:ui-monospace,monospace;font-size:.92em}td code{white-space:nowr
 /// Never: text is written to memory.
 pub fn write(interface: &Interface, guide: Guide<'_>) -> String {
     let name = escape(interface.name);
+    let sections = sections(interface, guide);
     let mut page = format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
-         <meta name=\"viewport\" content=\"width=device-width\">\n<title>{name}</title>\n<style>\n{STYLE}\n</style>\n</head>\n<body>\n\
-         <h1>{name}</h1>\n<p>{}</p>\n",
+         <meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">\n<title>{name}</title>\n<style>\n{STYLE}</style>\n\
+         </head>\n<body>\n<h1>{name}</h1>\n<p>{}</p>\n",
         escape(interface.about)
     );
-    facts(&mut page, interface);
-    guide::picture(&mut page, guide);
-    quick_start::append(&mut page, interface, guide.wiring);
-    guide::wiring(&mut page, interface.name, guide);
-    stepping(&mut page, interface);
-    for (title, causality) in [
-        ("Inputs", Causality::Input),
-        ("Outputs", Causality::Output),
-        ("Parameters", Causality::Parameter),
-        ("Calculated parameters", Causality::CalculatedParameter),
-        ("Internal variables", Causality::Local),
-    ] {
-        variables(
-            &mut page,
-            title,
-            interface
-                .scalars
-                .iter()
-                .filter(|entry| entry.causality == causality),
+    page.push_str("<nav aria-label=\"Contents\">\n<ul>\n");
+    for Section {
+        id, title, note, ..
+    } in &sections
+    {
+        let note = if note.is_empty() {
+            String::new()
+        } else {
+            format!(" <small>({note})</small>")
+        };
+        let _ = writeln!(page, "<li><a href=\"#{id}\">{title}</a>{note}</li>");
+    }
+    page.push_str("</ul>\n</nav>\n");
+    for Section {
+        id, title, body, ..
+    } in &sections
+    {
+        let _ = writeln!(
+            page,
+            "<section id=\"{id}\">\n<h2>{title}</h2>\n{body}</section>"
         );
     }
-    enumerations(&mut page, interface);
-    log(&mut page);
-    let _ = writeln!(page, "<h2>Deviations from FMI 2.0.5</h2>\n<ul>");
-    for deviation in DEVIATIONS {
-        let _ = writeln!(page, "<li>{deviation}</li>");
-    }
-    let _ = writeln!(
-        page,
-        "</ul>\n<h2>Licence</h2>\n<p>{}. {}, at your option: <a href=\"licenses/LICENSE-MIT.txt\">MIT</a>, \
-         <a href=\"licenses/LICENSE-APACHE.txt\">Apache 2.0</a>. What is linked into the libraries: \
-         <a href=\"licenses/license.txt\">licences</a>, <a href=\"sbom.cdx.json\">bill of materials</a> (CycloneDX 1.5).</p>\n</body>\n</html>",
-        escape(xml::COPYRIGHT),
-        escape(crate::LICENSE)
-    );
+    page.push_str("</body>\n</html>\n");
     page
 }
 
-fn facts(page: &mut String, interface: &Interface) {
+/// What the document has, in this order.
+fn sections(interface: &Interface, guide: Guide<'_>) -> Vec<Section> {
+    let mut sections = Vec::new();
+    sections.extend(guide::what(guide));
+    sections.extend(guide::picture(guide));
+    sections.push(quick_start::section(interface, guide.system));
+    sections.extend(guide::wiring(interface.name, guide));
+    sections.push(stepping(interface));
+    sections.extend(variables::sections(interface));
+    sections.extend(enumerations(interface));
+    sections.push(facts(interface));
+    sections.push(log());
+    let deviations: String = DEVIATIONS
+        .iter()
+        .map(|deviation| format!("<li>{deviation}</li>\n"))
+        .collect();
+    sections.push(Section::new(
+        "deviations",
+        "Deviations from FMI 2.0.5",
+        format!("<ul>\n{deviations}</ul>\n"),
+    ));
+    let licence = format!(
+        "<p>{}. {}, at your option: <a href=\"licenses/LICENSE-MIT.txt\">MIT</a>, \
+         <a href=\"licenses/LICENSE-APACHE.txt\">Apache 2.0</a>. What is linked into the libraries: \
+         <a href=\"licenses/license.txt\">licences</a>, <a href=\"sbom.cdx.json\">bill of materials</a> (CycloneDX 1.5).</p>\n",
+        escape(xml::COPYRIGHT),
+        escape(crate::LICENSE)
+    );
+    sections.push(Section::new("licence", "Licence", licence));
+    sections
+}
+
+fn facts(interface: &Interface) -> Section {
+    let mut page = String::new();
     let experiment = interface.experiment;
     let seconds = |time: f64| format!("{} s", double(time));
-    table(page, &["", ""]);
+    table(&mut page, "facts", &["", ""]);
     for (what, value) in [
         ("Standard", "FMI 2.0, co-simulation".to_owned()),
         ("Version", crate::VERSION.to_owned()),
@@ -120,151 +133,50 @@ fn facts(page: &mut String, interface: &Interface) {
         let _ = writeln!(page, "<tr><td>{what}</td><td>{value}</td></tr>");
     }
     page.push_str("</table>\n");
+    Section::new("facts", "Standard, version, guid", page)
 }
 
-fn stepping(page: &mut String, interface: &Interface) {
+fn stepping(interface: &Interface) -> Section {
     let how = match interface.stepping {
         Stepping::Sampled => {
             "The model is sampled: ticks are counted from the start time, one sample period apart. A step from t to t + h runs the \
              ticks in [t, t + h): the first step runs the tick at the start time. At a tick the inputs are latched and that tick's \
              outputs appear, readable when the step returns; between ticks they hold. Any h &gt; 0 is accepted; many small steps and \
-             one large step run the same ticks. The communication step size above is the sample period: with it, each step runs one tick."
+             one large step run the same ticks. The communication step size is the sample period: with it, each step runs one tick."
         }
         Stepping::Exact => {
             "A step from t to t + h holds the inputs, divides h into equal substeps no longer than the largest substep, and ends exactly \
              at t + h. Any h &gt; 0 is accepted."
         }
     };
-    let _ = writeln!(
-        page,
-        "<h2>How it steps</h2>\n<p>{how}</p>\n<p>No output depends on an input at the same communication point. Quantities are in SI \
+    let body = format!(
+        "<p>{how}</p>\n<p>No output depends on an input at the same communication point. Quantities are in SI \
          units. Bounds are included; a value outside of them, NaN or infinite is refused when it is set, but for inputs whose \
-         description says that they may be NaN.</p>"
+         description says that they may be NaN.</p>\n"
     );
+    Section::new("stepping", "How it steps", body)
 }
 
-fn variables<'a>(page: &mut String, title: &str, entries: impl Iterator<Item = &'a Entry>) {
-    let mut entries = entries.peekable();
-    let Some(first) = entries.peek() else { return };
-    let start = !first.is_calculated();
-    let _ = writeln!(page, "<h2>{title}</h2>");
-    let all = [
-        "Name",
-        "Type",
-        "Unit",
-        "Start",
-        "Range",
-        "Changes",
-        "Value reference",
-        "Description",
-    ];
-    let columns: Vec<&str> = all
-        .into_iter()
-        .filter(|&column| start || column != "Start")
-        .collect();
-    table(page, &columns);
-    for entry in entries {
-        let (kind, unit, value, range) = describe(&entry.kind);
-        let _ = write!(
-            page,
-            "<tr><td><code>{}</code></td><td>{kind}</td><td>{}</td>",
-            escape(&entry.name),
-            escape(unit)
-        );
-        if start {
-            let _ = write!(page, "<td class=\"n\">{}</td>", escape(&value));
-        }
-        let _ = writeln!(
-            page,
-            "<td class=\"n\">{range}</td><td>{}</td><td class=\"n\">{}</td><td>{}</td></tr>",
-            variability(entry.variability),
-            entry.reference,
-            escape(entry.about)
-        );
-    }
-    page.push_str("</table>\n");
-}
-
-/// Type, unit, start value and range, for humans.
-fn describe(kind: &Kind) -> (String, &'static str, String, String) {
-    match kind {
-        Kind::Real {
-            unit,
-            start,
-            min,
-            max,
-        } => {
-            let (min, max) = (min.map(double), max.map(double));
-            (
-                "Real".into(),
-                unit.name,
-                double(*start),
-                range(min.as_deref(), max.as_deref()),
-            )
-        }
-        Kind::Integer { start, min, max } => {
-            let (min, max) = (
-                min.map(|value| value.to_string()),
-                max.map(|value| value.to_string()),
-            );
-            (
-                "Integer".into(),
-                "",
-                start.to_string(),
-                range(min.as_deref(), max.as_deref()),
-            )
-        }
-        Kind::Boolean { start } => ("Boolean".into(), "", start.to_string(), String::new()),
-        Kind::String { start } => ("String".into(), "", start.clone(), String::new()),
-        Kind::Enumeration { of, start, .. } => {
-            let item = of
-                .items
-                .iter()
-                .find(|item| item.value == *start)
-                .map_or("", |item| item.name);
-            (
-                format!("<a href=\"#{0}\">{0}</a>", escape(of.name)),
-                "",
-                format!("{start} {item}"),
-                String::new(),
-            )
-        }
-    }
-}
-
-fn range(min: Option<&str>, max: Option<&str>) -> String {
-    match (min, max) {
-        (Some(min), Some(max)) => format!("{min} … {max}"),
-        (Some(min), None) => format!("≥ {min}"),
-        (None, Some(max)) => format!("≤ {max}"),
-        (None, None) => String::new(),
-    }
-}
-
-fn enumerations(page: &mut String, interface: &Interface) {
-    for of in interface.enumerations() {
-        let _ = writeln!(
-            page,
-            "<h2 id=\"{0}\">{0}</h2>\n<p>{1}</p>",
-            escape(of.name),
-            escape(of.about)
-        );
-        table(page, &["Value", "Name", "Description"]);
+fn enumerations(interface: &Interface) -> impl Iterator<Item = Section> {
+    interface.enumerations().into_iter().map(|of| {
+        let mut body = format!("<p>{}</p>\n", escape(of.about));
+        table(&mut body, "items", &["Value", "Name", "Description"]);
         for item in of.items {
             let (name, about) = (escape(item.name), escape(item.about));
             let _ = writeln!(
-                page,
+                body,
                 "<tr><td class=\"n\">{}</td><td><code>{name}</code></td><td>{about}</td></tr>",
                 item.value
             );
         }
-        page.push_str("</table>\n");
-    }
+        body.push_str("</table>\n");
+        Section::new(&escape(of.name), &escape(of.name), body)
+    })
 }
 
-fn log(page: &mut String) {
-    page.push_str("<h2>Log categories</h2>\n");
-    table(page, &["Category", "What"]);
+fn log() -> Section {
+    let mut page = String::new();
+    table(&mut page, "log", &["Category", "What"]);
     for (category, about) in LOG_CATEGORIES {
         let _ = writeln!(
             page,
@@ -272,4 +184,5 @@ fn log(page: &mut String) {
         );
     }
     page.push_str("</table>\n");
+    Section::new("log", "Log categories", page)
 }

@@ -7,6 +7,8 @@ use declaration::{Causality, Declared, Enumeration, Unit, Variability};
 pub struct Entry {
     /// Name, the element's number in it.
     pub name: String,
+    /// Name of its row: as `name`, with `[i]` where a vector has the element's number.
+    pub row: String,
     /// Value reference.
     pub reference: u32,
     /// Who computes it.

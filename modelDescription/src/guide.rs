@@ -1,16 +1,20 @@
-//! The part of the interface document that the rows cannot tell: a picture of signs and frames, and which variables of
-//! which FMUs belong together. No model is known here, so it is given.
+//! The part of the interface document that the rows cannot tell: what the model does, a picture of signs and frames, and
+//! which variables of which FMUs belong together. No model is known here, so it is given.
 
-use crate::html::{escape, table};
+use crate::html::{Section, escape, table};
 use std::fmt::Write as _;
 
 /// What the document shows besides the rows.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Guide<'a> {
+    /// What the model does, as paragraphs of HTML; empty: none.
+    pub what: &'a str,
     /// An `<svg>` element with signs and frames, shown inline; empty: none.
     pub picture: &'a str,
     /// Connections from and to this FMU.
     pub wiring: &'a [Connection<'a>],
+    /// The system that this FMU is part of.
+    pub system: System<'a>,
 }
 
 /// A connection from an output to an input. A vector's name ends in `[i]`, all elements are connected.
@@ -24,27 +28,41 @@ pub struct Connection<'a> {
     pub when: &'a str,
 }
 
-/// Appends the picture, if there is one.
-pub(crate) fn picture(page: &mut String, guide: Guide<'_>) {
-    if !guide.picture.is_empty() {
-        let _ = writeln!(
-            page,
-            "<h2 id=\"signs\">Signs and frames</h2>\n<figure>\n{}\n</figure>",
-            guide.picture.trim_end()
-        );
-    }
+/// FMUs that run together, for the quick start.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct System<'a> {
+    /// Name of each component and its FMU, in the order in which they step.
+    pub parts: &'a [(&'a str, &'a str)],
+    /// Connections, component and variable, written as in [`Connection`].
+    pub wires: &'a [((&'a str, &'a str), (&'a str, &'a str))],
+    /// Start values that make something happen: component, variable, value.
+    pub start: &'a [(&'a str, &'a str, &'a str)],
 }
 
-/// Appends the table of connections, if there are some.
-pub(crate) fn wiring(page: &mut String, name: &str, guide: Guide<'_>) {
-    if guide.wiring.is_empty() {
-        return;
-    }
-    page.push_str(
-        "<h2 id=\"wiring\">How to wire</h2>\n<p>All elements of a vector <code>[i]</code> are connected. An input that is left open \
-         keeps its start value.</p>\n",
+/// What the model does, if that is told.
+pub(crate) fn what(guide: Guide<'_>) -> Option<Section> {
+    let body = format!("{}\n", guide.what.trim_end());
+    (!guide.what.is_empty()).then(|| Section::new("what", "What it does", body))
+}
+
+/// The picture, if there is one.
+pub(crate) fn picture(guide: Guide<'_>) -> Option<Section> {
+    let body = format!(
+        "<figure tabindex=\"0\">\n{}\n</figure>\n",
+        guide.picture.trim_end()
     );
-    table(page, &["Here", "", "There", "When"]);
+    (!guide.picture.is_empty()).then(|| Section::new("signs", "Signs and frames", body))
+}
+
+/// The table of connections, if there are some.
+pub(crate) fn wiring(name: &str, guide: Guide<'_>) -> Option<Section> {
+    if guide.wiring.is_empty() {
+        return None;
+    }
+    let mut body = String::from(
+        "<p>All elements of a vector <code>[i]</code> are connected. An input that is left open keeps its start value.</p>\n",
+    );
+    table(&mut body, "wiring", &["Here", "", "There", "When"]);
     for connection in guide.wiring {
         let (here, arrow, there) = if connection.to.0 == name {
             (connection.to.1, "←", connection.from)
@@ -57,7 +75,7 @@ pub(crate) fn wiring(page: &mut String, name: &str, guide: Guide<'_>) {
             connection.when
         };
         let _ = writeln!(
-            page,
+            body,
             "<tr><td>{}</td><td>{arrow}</td><td>{}.{}</td><td>{}</td></tr>",
             escape(here),
             escape(there.0),
@@ -65,5 +83,6 @@ pub(crate) fn wiring(page: &mut String, name: &str, guide: Guide<'_>) {
             escape(when)
         );
     }
-    page.push_str("</table>\n");
+    body.push_str("</table>\n");
+    Some(Section::new("wiring", "How to wire", body))
 }

@@ -2,15 +2,39 @@
 
 use std::fmt::Write as _;
 
-/// Opens a table; without titles it has no head.
-pub(crate) fn table(page: &mut String, columns: &[&str]) {
-    page.push_str("<table>\n");
+/// A part of the document that the table of contents names.
+pub(crate) struct Section {
+    /// Where links go.
+    pub id: String,
+    /// Its heading.
+    pub title: String,
+    /// What the table of contents says beside it, if anything.
+    pub note: String,
+    /// What stands below the heading.
+    pub body: String,
+}
+
+impl Section {
+    /// A section of which the table of contents says nothing else.
+    pub fn new(id: &str, title: &str, body: String) -> Self {
+        Self {
+            id: id.into(),
+            title: title.into(),
+            note: String::new(),
+            body,
+        }
+    }
+}
+
+/// Opens a table of a class; without titles it has no head.
+pub(crate) fn table(page: &mut String, class: &str, columns: &[&str]) {
+    let _ = writeln!(page, "<table class=\"{class}\">");
     if columns.iter().any(|column| !column.is_empty()) {
         let head: String = columns
             .iter()
             .map(|column| format!("<th>{column}</th>"))
             .collect();
-        let _ = writeln!(page, "<tr>{head}</tr>");
+        let _ = writeln!(page, "<tr class=\"head\">{head}</tr>");
     }
 }
 

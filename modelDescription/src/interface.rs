@@ -23,7 +23,7 @@ pub struct Interface {
     pub stepping: Stepping,
     /// Default experiment, times in seconds.
     pub experiment: Experiment,
-    /// All scalars in the order of the XML, those of the rows and then [`provenance`]: position 0 has index 1 there.
+    /// All scalars in the [order](Description::in_order) of the XML, and last [`provenance`]: position 0 has index 1 there.
     pub scalars: Vec<Entry>,
 }
 
@@ -47,14 +47,16 @@ impl Interface {
             check_row(description.stepping, variable)?;
         }
         let mut scalars = Vec::new();
-        for scalar in description.scalars() {
+        let in_order = description.in_order();
+        for scalar in &in_order {
             scalars.push(Entry {
                 name: scalar.name(),
+                row: scalar.variable.full_name(),
                 reference: scalar.reference(),
                 causality: scalar.variable.causality,
                 variability: scalar.variable.variability,
-                kind: kind(&scalar, &start),
-                initially_from: known(description, scalar.variable)?,
+                kind: kind(scalar, &start),
+                initially_from: known(&in_order, scalar.variable)?,
                 about: scalar.variable.about,
             });
         }
@@ -106,6 +108,7 @@ impl Interface {
 fn built_from(of: Provenance) -> Entry {
     Entry {
         name: of.name().to_owned(),
+        row: of.name().to_owned(),
         reference: of.reference(),
         causality: Causality::Local,
         variability: Variability::Fixed,

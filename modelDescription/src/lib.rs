@@ -44,7 +44,7 @@
 //! | [`schema`], [`mod@xml`] | the XML's elements, and their contents | `modelDescription.xml` | 2.2, 4.3.1 |
 //! | [`mod@document`] | the interface document for humans | `documentation/index.html` | 2.3 |
 //! | `html` | its pieces | | |
-//! | [`guide`] | what the rows cannot tell: picture, wiring | in the document | |
+//! | [`guide`] | what the rows cannot tell: what it does, picture, wiring | in the document | |
 //! | [`quick_start`] | first steps in a few tools | in the document | |
 //! | [`product`] | what is delivered, as licences and bill of materials name it | | |
 //! | [`component`], [`mod@sbom`] | what is linked in, and its bill of materials | `documentation/sbom.cdx.json` | |
@@ -70,12 +70,13 @@ pub mod quick_start;
 pub mod rules;
 pub mod sbom;
 pub mod schema;
+mod variables;
 pub mod xml;
 
 pub use component::Component;
 pub use document::write as document;
 pub use error::Error;
-pub use guide::{Connection, Guide};
+pub use guide::{Connection, Guide, System};
 pub use header::write as header;
 pub use interface::Interface;
 pub use product::Product;

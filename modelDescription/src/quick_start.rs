@@ -1,16 +1,17 @@
-//! The document's first steps in a few tools. They need the archive and nothing else.
+//! The document's first steps in a few tools. They need the archive, for a system those of its other parts, and nothing else.
 
-use crate::html::escape;
+use crate::Interface;
+use crate::guide::System;
+use crate::html::{Section, escape};
 use crate::xml::double;
-use crate::{Connection, Interface};
 use std::fmt::Write as _;
 
-/// Appends the section.
-pub fn append(page: &mut String, interface: &Interface, wiring: &[Connection<'_>]) {
+/// The section.
+pub(crate) fn section(interface: &Interface, system: System<'_>) -> Section {
     let (name, step) = (interface.name, double(interface.experiment.step));
-    page.push_str("<h2 id=\"quick-start\">Quick start</h2>\n");
+    let mut page = String::new();
     listing(
-        page,
+        &mut page,
         "<b>fmpy</b> (Python), one second alone, all outputs:",
         "python",
         &format!(
@@ -20,57 +21,60 @@ pub fn append(page: &mut String, interface: &Interface, wiring: &[Connection<'_>
              print(result[-1])"
         ),
     );
-    listing(
-        page,
-        "<b>OMSimulator</b> (Lua), with what it is connected to:",
-        "lua",
-        &lua(interface, wiring),
-    );
+    if !system.parts.is_empty() {
+        listing(
+            &mut page,
+            "<b>OMSimulator</b> (Python, 3.0 or newer), with what it is connected to:",
+            "python omsimulator",
+            &ssp(interface, system),
+        );
+    }
     let _ = writeln!(
         page,
         "<p><b>Simulink</b>: add an FMU block (Simulink Extras, FMU Import), choose <code>{name}.fmu</code>, simulation mode \
          co-simulation, communication step size {step} s. Parameters are in the block's dialog, by group of their names; the elements of a \
          vector are separate ports. <b>Dymola, VEOS and others</b>: import as a co-simulation FMU with the same step size.</p>"
     );
+    Section::new("quick-start", "Quick start", page)
 }
 
-/// A script that loads this FMU and those at the other end of its connections, and makes the connections between them.
-fn lua(interface: &Interface, wiring: &[Connection<'_>]) -> String {
-    let mut models = vec![interface.name];
-    let always = || {
-        wiring
-            .iter()
-            .filter(|connection| connection.when.is_empty())
-    };
-    for name in always().flat_map(|connection| [connection.from.0, connection.to.0]) {
-        if !models.contains(&name) {
-            models.push(name);
-        }
+/// A script that loads the system's FMUs, connects them and runs them.
+fn ssp(interface: &Interface, system: System<'_>) -> String {
+    let mut text = String::from("from OMSimulator import CRef, SSP\n\nparts = {\n");
+    for (part, fmu) in system.parts {
+        let _ = writeln!(text, "    \"{part}\": \"{fmu}.fmu\",");
     }
-    let mut text = String::from("oms_newModel(\"m\")\noms_addSystem(\"m.s\", oms_system_wc)\n");
-    for model in &models {
-        let _ = writeln!(text, "oms_addSubModel(\"m.s.{model}\", \"{model}.fmu\")");
+    text.push_str("}\nwires = [\n");
+    for (from, to) in system.wires {
+        let _ = writeln!(
+            text,
+            "    (\"{}\", \"{}\", \"{}\", \"{}\"),",
+            from.0, from.1, to.0, to.1
+        );
     }
-    for Connection { from, to, .. } in always() {
-        let vector = from.1.ends_with("[i]");
-        for i in 1..=if vector { 3 } else { 1 } {
-            let element = |name: &str| name.replace("[i]", &format!("[{i}]"));
-            let _ = writeln!(
-                text,
-                "oms_addConnection(\"m.s.{}.{}\", \"m.s.{}.{}\")",
-                from.0,
-                element(from.1),
-                to.0,
-                element(to.1)
-            );
-        }
+    text.push_str(
+        "]\nmodel = SSP()\n\
+         for fmu in sorted(set(parts.values())):\n    \
+             model.addResource(fmu, new_name=f\"resources/{fmu}\")\n\
+         for part, fmu in parts.items():\n    \
+             model.addComponent(CRef(\"default\", part), f\"resources/{fmu}\")\n\
+         for source, output, target, input in wires:\n    \
+             for i in (1, 2, 3) if \"[i]\" in output else (1,):\n        \
+                 ends = (source, output.replace(\"[i]\", f\"[{i}]\")), (target, input.replace(\"[i]\", f\"[{i}]\"))\n        \
+                 model.addConnection(*(CRef(\"default\", *end) for end in ends))\n",
+    );
+    for (part, variable, value) in system.start {
+        let _ = writeln!(
+            text,
+            "model.setValue(CRef(\"default\", \"{part}\", \"{variable}\"), {value})"
+        );
     }
     let _ = write!(
         text,
-        "oms_setFixedStepSize(\"m.s\", {})\noms_setStopTime(\"m\", {})\noms_setResultFile(\"m\", \"result.csv\")\n\
-         oms_instantiate(\"m\")\noms_initialize(\"m\")\noms_simulate(\"m\")\noms_terminate(\"m\")\noms_delete(\"m\")",
-        double(interface.experiment.step),
-        double(interface.experiment.stop)
+        "run = model.instantiate()\nrun.setResultFile(\"result.csv\")\nrun.setStopTime({})\nrun.setFixedStepSize({})\n\
+         run.initialize()\nrun.simulate()\nrun.terminate()\nrun.delete()",
+        double(interface.experiment.stop),
+        double(interface.experiment.step)
     );
     text
 }

@@ -4,8 +4,8 @@ use crate::entry::{Entry, Kind};
 use crate::error::Error;
 use crate::name::{is_identifier, is_structured};
 use declaration::{
-    Access, Causality, Description, Enumeration, Experiment, Stepping, Unit, Variability, Variable,
-    description::SCALARS_PER_ROW, provenance, variable::IN_ORDER,
+    Access, Causality, Description, Enumeration, Experiment, Scalar, Stepping, Unit, Variability,
+    Variable, description::SCALARS_PER_ROW, provenance, variable::IN_ORDER,
 };
 use std::collections::BTreeMap;
 
@@ -107,9 +107,9 @@ pub(crate) fn check_row<D>(
     Ok(())
 }
 
-/// Positions of the scalars named by `initially_from`; a vector's name (`q[i]`) means all of its elements.
+/// Positions of the scalars named by `initially_from` among `scalars`; a vector's name (`q[i]`) means all of its elements.
 pub(crate) fn known<D>(
-    description: &Description<D>,
+    scalars: &[Scalar<D>],
     row: &declaration::Variable<D>,
 ) -> Result<Vec<usize>, Error> {
     let calculated = matches!(
@@ -119,18 +119,13 @@ pub(crate) fn known<D>(
     let mut positions = Vec::new();
     for &name in row.initially_from {
         let before = positions.len();
-        positions.extend(
-            description
-                .scalars()
-                .enumerate()
-                .filter_map(|(position, scalar)| {
-                    let given = matches!(
-                        scalar.variable.causality,
-                        Causality::Input | Causality::Parameter
-                    );
-                    (given && scalar.variable.full_name() == name).then_some(position)
-                }),
-        );
+        positions.extend(scalars.iter().enumerate().filter_map(|(position, scalar)| {
+            let given = matches!(
+                scalar.variable.causality,
+                Causality::Input | Causality::Parameter
+            );
+            (given && scalar.variable.full_name() == name).then_some(position)
+        }));
         if !calculated || positions.len() == before {
             return Err(Error::InitiallyFrom {
                 row: row.name,

@@ -3,7 +3,7 @@
 mod subject;
 
 use model_description::archive::{self, Contents};
-use model_description::{Component, Connection, Guide, Interface, document, header};
+use model_description::{Component, Connection, Guide, Interface, System, document, header};
 use std::collections::{BTreeMap, BTreeSet};
 use std::io::{Cursor, Read as _};
 use subject::Subject;
@@ -15,6 +15,7 @@ fn interface() -> Interface {
 }
 
 const GUIDE: Guide<'static> = Guide {
+    what: "<p>It does <code>what</code> it does.</p>",
     picture: "<svg viewBox=\"0 0 1 1\"><path d=\"M0 0h1\"/></svg>",
     wiring: &[
         Connection {
@@ -28,6 +29,11 @@ const GUIDE: Guide<'static> = Guide {
             when: "it is < there",
         },
     ],
+    system: System {
+        parts: &[("one", "Subject"), ("other", "Other")],
+        wires: &[(("other", "y[i]"), ("one", "u[i]"))],
+        start: &[("one", "gain", "2.5")],
+    },
 };
 
 /// A component with texts that uses one of this project.
@@ -199,17 +205,17 @@ fn picture_and_wiring_are_in_the_document() {
     for row in [
         "<tr><td>u[i]</td><td>←</td><td>Other.y[i]</td><td>always</td></tr>",
         "<tr><td>angle[i]</td><td>→</td><td>Third.angle[i]</td><td>it is &lt; there</td></tr>",
-        "oms_addConnection(&quot;m.s.Other.y[2]&quot;, &quot;m.s.Subject.u[2]&quot;)",
-        "oms_addSubModel(&quot;m.s.Other&quot;, &quot;Other.fmu&quot;)",
+        "    &quot;one&quot;: &quot;Subject.fmu&quot;,\n    &quot;other&quot;: &quot;Other.fmu&quot;,\n",
+        "    (&quot;other&quot;, &quot;y[i]&quot;, &quot;one&quot;, &quot;u[i]&quot;),\n",
+        "model.setValue(CRef(&quot;default&quot;, &quot;one&quot;, &quot;gain&quot;), 2.5)\n",
+        "<h2>What it does</h2>\n<p>It does <code>what</code> it does.</p>",
     ] {
         assert!(page.contains(row), "{row}");
     }
-    assert!(
-        !page.contains("m.s.Third"),
-        "connected only in a special case"
-    );
     let bare = document(&interface(), Guide::default());
-    assert!(!bare.contains("<figure>") && !bare.contains("How to wire"));
+    for part in ["<figure", "How to wire", "What it does", "OMSimulator"] {
+        assert!(page.contains(part) && !bare.contains(part), "{part}");
+    }
 }
 
 #[test]
@@ -236,25 +242,62 @@ fn no_link_of_the_document_is_dead() {
 }
 
 #[test]
-fn the_document_shows_every_variable_with_unit_start_range_and_description() {
+fn the_table_of_contents_names_every_section_in_its_order() {
+    let page = page();
+    let (contents, rest) = page.split_once("</nav>").expect("has contents");
+    let named: Vec<_> = contents
+        .split("<li><a href=\"#")
+        .skip(1)
+        .map(|item| {
+            item.split("</a>")
+                .next()
+                .unwrap()
+                .split_once("\">")
+                .unwrap()
+        })
+        .collect();
+    let sections: Vec<_> = rest
+        .split("<section id=\"")
+        .skip(1)
+        .map(|section| {
+            let (id, heading) = section.split_once("\">\n<h2>").expect("a heading");
+            (id, heading.split("</h2>").next().unwrap())
+        })
+        .collect();
+    assert_eq!(named, sections);
+    assert_eq!(rest.matches("<h2").count(), sections.len());
+    assert!(sections.len() >= 12, "{sections:?}");
+    assert!(contents.contains("<a href=\"#inputs\">Inputs</a> <small>(4)</small>"));
+    let ids: BTreeSet<_> = sections.iter().map(|(id, _)| id).collect();
+    assert_eq!(ids.len(), sections.len());
+}
+
+#[test]
+fn the_document_shows_every_row_once_with_type_start_range_and_description() {
     let page = page();
     for row in [
-        "<td><code>u[3]</code></td><td>Real</td><td>N</td><td class=\"n\">0.3333333333333333</td><td class=\"n\">-10000.0 … 10000.0</td>\
-         <td>discrete</td><td class=\"n\">2</td><td>force &amp; &quot;sign&quot;</td>",
-        "<td><code>gain</code></td><td>Real</td><td>N.s/m</td><td class=\"n\">30.0</td><td class=\"n\">≥ 0.0</td><td>tunable</td>",
-        "<td><code>energy.total</code></td><td>Real</td><td>J</td><td class=\"n\"></td><td>discrete</td>",
-        "<td><a href=\"#Mode\">Mode</a></td><td></td><td class=\"n\">4 busy</td>",
+        "<td><code>u[i]</code><small>i = 1 … 3</small></td><td data-of=\"Type\">Real, N</td>\
+         <td class=\"n\" data-of=\"Start\">0.25, -0.5, 0.3333333333333333</td><td class=\"n\" data-of=\"Range\">-10000.0 … 10000.0</td>\
+         <td>force &amp; &quot;sign&quot;<small>discrete, value references 0 … 2</small></td>",
+        "<td><code>gain</code></td><td data-of=\"Type\">Real, N.s/m</td><td class=\"n\" data-of=\"Start\">30.0</td>\
+         <td class=\"n\" data-of=\"Range\">≥ 0.0</td><td>gain<small>tunable, value reference 1536</small></td>",
+        "<tr class=\"group\"><th colspan=\"4\">energy</th></tr>\n<tr><td><code>energy.total</code></td><td data-of=\"Type\">Real, J</td>\
+         <td class=\"n\"></td><td>energy<small>discrete, value reference 768</small></td>",
+        "<td data-of=\"Type\"><a href=\"#Mode\">Mode</a></td><td class=\"n\" data-of=\"Start\">4 busy</td>",
         "<td class=\"n\">4</td><td><code>busy</code></td><td>x &lt; y &amp; z</td>",
     ] {
         assert!(page.contains(row), "{row}");
     }
-    for entry in interface().scalars {
+    let rows: BTreeSet<_> = interface()
+        .scalars
+        .into_iter()
+        .map(|entry| entry.row)
+        .collect();
+    for row in rows {
         assert_eq!(
-            page.matches(&format!("<code>{}</code>", entry.name))
-                .count(),
+            page.matches(&format!("<tr><td><code>{row}</code>")).count(),
             1,
-            "{}",
-            entry.name
+            "{row}"
         );
     }
     for (category, _) in model_description::xml::LOG_CATEGORIES {
@@ -266,8 +309,8 @@ fn the_document_shows_every_variable_with_unit_start_range_and_description() {
 fn the_tags_of_the_document_are_balanced() {
     let page = page();
     for tag in [
-        "html", "head", "body", "table", "tr", "td", "th", "ul", "li", "p", "a", "code", "h2",
-        "style", "pre", "figure", "svg", "b",
+        "html", "head", "body", "nav", "section", "small", "table", "tr", "td", "th", "ul", "li",
+        "p", "a", "code", "h2", "style", "pre", "figure", "svg", "b",
     ] {
         let open =
             page.matches(&format!("<{tag}>")).count() + page.matches(&format!("<{tag} ")).count();

@@ -2,6 +2,7 @@
 
 mod subject;
 
+use declaration::Declare as _;
 use model_description::{Interface, xml};
 use std::collections::{BTreeMap, BTreeSet};
 use subject::{Element, Subject, elements};
@@ -379,4 +380,60 @@ fn root_and_default_experiment_are_complete_and_carry_no_date() {
         .map(|name| experiment.get(name).unwrap())
         .into();
     assert_eq!(times, ["0.0", "60.0", "1e-6", "0.002"]);
+}
+
+#[test]
+fn variables_stand_by_causality_then_by_group_and_keep_their_value_references() {
+    let all = written();
+    let found: Vec<_> = variables(&all)
+        .iter()
+        .map(|(v, _)| {
+            let reference: u32 = v.get("valueReference").unwrap().parse().unwrap();
+            (
+                v.get("causality").unwrap(),
+                v.get("name").unwrap(),
+                reference,
+            )
+        })
+        .collect();
+    // The rows of the subject are mixed: `scale` stands before the parameters, `energy.total` before `tick`.
+    let rows: Vec<_> = Subject::DESCRIPTION
+        .scalars()
+        .map(|scalar| scalar.name())
+        .collect();
+    assert_ne!(
+        rows,
+        found[..rows.len()]
+            .iter()
+            .map(|(_, name, _)| (*name).to_owned())
+            .collect::<Vec<_>>()
+    );
+    let order: Vec<_> = found.iter().map(|(causality, ..)| *causality).collect();
+    let mut runs = order.clone();
+    runs.dedup();
+    assert_eq!(
+        runs,
+        [
+            "input",
+            "output",
+            "parameter",
+            "calculatedParameter",
+            "local"
+        ]
+    );
+    let outputs: Vec<_> = found
+        .iter()
+        .filter(|(causality, ..)| *causality == "output")
+        .map(|(_, name, reference)| (*name, *reference))
+        .collect();
+    assert_eq!(
+        outputs,
+        [
+            ("angle[1]", 512),
+            ("angle[2]", 513),
+            ("angle[3]", 514),
+            ("tick", 1024),
+            ("energy.total", 768)
+        ]
+    );
 }

@@ -76,8 +76,6 @@ def test_libcosimpy_couples_a_system_as_the_harness_does(
     known = described(plan, archives)
     outputs = [key for key in run.columns if key in known]
     start = {key: number(plan, archives, key, value) for key, value in plan.parameters.items()}
-    # libcosim exchanges for the first time after the first step: what is wired begins as the harness begins it.
-    start |= {to: float(run.columns[".".join(origin)][0]) for to, origin in wired.items() if origin[0] != PROFILE}
     found = cosim(
         {
             "step_ns": round(plan.step * 1e9),

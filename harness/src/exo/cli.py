@@ -21,7 +21,7 @@ from exo import experiment, report, results, scenario, sensitivity, tool, valida
 from exo.errors import ExoError, FmuError, ScenarioError
 from exo.experiment import Experiment
 from exo.fmu import Archive, find_fmu_dir
-from exo.systems import container, ssp
+from exo.systems import closed, container, ssp
 from exo.systems import system as systems
 from exo.systems.system import RECIPES
 from exo.tuning import guide as tuning
@@ -115,16 +115,25 @@ def compare(
 def write_ssp(
     out: Annotated[Path, typer.Option("--out", help="Folder for the archives.")] = Path("target/ssp"),
     fmu_dir: FmuDir = None,
+    bound: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--set", help="Parameter set that the SSP archives bind, as wall-standard_10_0.5; may be repeated."
+        ),
+    ] = None,
 ) -> None:
     """Writes the coupled systems: SSP archives with the scenarios' parameter sets, and containers, each one FMU."""
     with sentences(), ExitStack() as stack:
         folder = find_fmu_dir(fmu_dir)
+        defaults = systems.defaults(bound or ())
         for name in RECIPES:
-            system = systems.load(name)
-            files = sorted(set(system.components.values()))
+            system = systems.load(name, default=defaults.get(name))
+            alone = closed.load(name, default=defaults.get(name))
+            files = sorted({*system.components.values(), *alone.components.values()})
             archives = {file: stack.enter_context(Archive(folder / file)) for file in files}
             for path in (
                 ssp.write(system=system, archives=archives, folder=out),
+                ssp.write(system=alone, archives=archives, folder=out),
                 container.write(system=system, archives=archives, folder=out),
             ):
                 console.print(f"{path}  {path.stat().st_size // 1000} kB", markup=False)

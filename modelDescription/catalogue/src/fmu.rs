@@ -12,6 +12,8 @@ use std::path::PathBuf;
 pub struct Fmu {
     /// Its name: archive, library and example target.
     pub name: &'static str,
+    /// What it does, as paragraphs of HTML.
+    pub what: &'static str,
     /// Signs and frames, as an `<svg>` element.
     pub picture: &'static str,
     /// `model.png`.
@@ -24,6 +26,7 @@ macro_rules! types {
         /// All FMUs.
         pub const FMUS: &[Fmu] = &[$(Fmu {
             name: stringify!($Type),
+            what: include_str!(concat!("../../documents/", stringify!($Type), ".html")),
             picture: include_str!(concat!("../../pictures/", $picture, ".svg")),
             icon: include_bytes!(concat!("../../icons/", stringify!($Type), ".png")),
             read: Interface::of::<$crate_name::$Type>,
@@ -51,6 +54,7 @@ impl Fmu {
     pub const fn example<D: Declare>(name: &'static str) -> Self {
         Self {
             name,
+            what: "",
             picture: "",
             icon: include_bytes!("../../model.png"),
             read: Interface::of::<D>,

@@ -47,27 +47,63 @@ fn each_name_in_a_picture_is_a_variable_of_an_fmu_that_shows_it() {
 }
 
 #[test]
-fn handle_and_pad_stand_where_the_arm_has_them_at_its_start() {
+fn a_picture_names_only_what_its_fmu_has_if_it_is_the_only_one_that_shows_it() {
+    for (name, others) in [
+        ("HumanOperator", ["payload.m", "tau_a[1]", "q[2]"]),
+        ("ExoskeletonArms", ["q[2]", "f_h", "f_a"]),
+    ] {
+        let fmu = crate::Fmu::named(name).expect("is listed");
+        let shown = FMUS.iter().filter(|other| other.picture == fmu.picture);
+        assert_eq!(shown.count(), 1, "{name} has a picture of its own");
+        let names = names(fmu.picture);
+        assert!(others.iter().all(|other| !names.contains(other)), "{name}");
+    }
+}
+
+#[test]
+fn handles_and_pad_stand_where_the_arms_have_them_at_their_start() {
     let mut arm = exoskeleton_arm::ExoskeletonArm::default();
     arm.initialize(0.0, &mut Log::silent()).expect("legal");
-    let picture = FMUS
-        .iter()
-        .find(|fmu| fmu.name == "ExoskeletonArm")
-        .expect("is listed")
-        .picture;
-    // The side view: 760 to the metre, the base frame's origin at (110, 140); half of the last digit written is 0.005.
-    let drawn = |x: f64, y: f64| ((x - 110.0) / 760.0, (140.0 - y) / 760.0);
-    let handle = drawn(
-        number(picture, "handle", "cx"),
-        number(picture, "handle", "cy"),
-    );
-    let pad = drawn(
-        number(picture, "pad", "x") + number(picture, "pad", "width") / 2.0,
-        number(picture, "pad", "y"),
-    );
-    for (drawn, point) in [(handle, arm.outputs.p), (pad, arm.outputs.p_pad)] {
-        assert!((drawn.0 - point[0]).abs() < 1e-5, "{drawn:?} {point:?}");
-        assert!((drawn.1 - point[2]).abs() < 1e-5, "{drawn:?} {point:?}");
+    let mut arms = exoskeleton_arms::ExoskeletonArms::default();
+    arms.initialize(0.0, &mut Log::silent()).expect("legal");
+    let picture = |name| crate::Fmu::named(name).expect("is listed").picture;
+    let (one, two) = (picture("ExoskeletonArm"), picture("ExoskeletonArms"));
+    // The side views: 760 to the metre, the base frame's origin at (110, 140); half of the last digit written is 0.005.
+    let beside = |x: f64, z: f64| ((x - 110.0) / 760.0, (140.0 - z) / 760.0);
+    let handle = |picture| {
+        beside(
+            number(picture, "handle", "cx"),
+            number(picture, "handle", "cy"),
+        )
+    };
+    let pad = |picture| {
+        beside(
+            number(picture, "pad", "x") + number(picture, "pad", "width") / 2.0,
+            number(picture, "pad", "y"),
+        )
+    };
+    // The top view of both: 400 to the metre, origin at (690, 250).
+    let above = |id| {
+        let (x, y) = (number(two, id, "cx"), number(two, id, "cy"));
+        ((x - 690.0) / 400.0, (250.0 - y) / 400.0)
+    };
+    let [left, right] = [arms.outputs.left.p, arms.outputs.right.p];
+    for (drawn, x, y) in [
+        (handle(one), arm.outputs.p[0], arm.outputs.p[2]),
+        (pad(one), arm.outputs.p_pad[0], arm.outputs.p_pad[2]),
+        (handle(two), left[0], left[2]),
+        (
+            pad(two),
+            arms.outputs.left.p_pad[0],
+            arms.outputs.left.p_pad[2],
+        ),
+        (above("left-handle"), left[0], left[1]),
+        (above("right-handle"), right[0], right[1]),
+        (above("left-shoulder"), 0.0, arms.base.y),
+        (above("right-shoulder"), 0.0, -arms.base.y),
+    ] {
+        assert!((drawn.0 - x).abs() < 2e-5, "{drawn:?} {x}");
+        assert!((drawn.1 - y).abs() < 2e-5, "{drawn:?} {y}");
     }
 }
 

@@ -59,8 +59,10 @@ impl Request {
             binaries: &binaries,
             linked: &self.linked,
             guide: Guide {
+                what: fmu.what,
                 picture: fmu.picture,
                 wiring: &wiring::of(fmu.name),
+                system: wiring::system(fmu.name),
             },
             icon: fmu.icon,
         };

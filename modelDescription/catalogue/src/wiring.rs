@@ -1,6 +1,6 @@
 //! Which output belongs to which input: the connections that the interface documents show.
 
-use model_description::Connection;
+use model_description::{Connection, System};
 
 /// From an output to an input; `when` says the case, if it is not the usual one.
 const fn wire(
@@ -48,6 +48,81 @@ pub fn of(fmu: &str) -> Vec<Connection<'static>> {
     let mut own = CONNECTIONS.to_vec();
     own.retain(|connection| connection.from.0 == fmu || connection.to.0 == fmu);
     own
+}
+
+const TESTBED: System<'static> = System {
+    parts: &[("controller", "TestbedController"), ("plant", "Testbed")],
+    wires: &[
+        (("plant", "q"), ("controller", "q")),
+        (("plant", "tau_h_measured"), ("controller", "tau_h")),
+        (("controller", "tau_a"), ("plant", "tau_a")),
+    ],
+    start: &[("controller", "delay", "1"), ("plant", "tau_h", "4.0")],
+};
+
+const ARM: System<'static> = System {
+    parts: &[
+        ("controller", "ArmController"),
+        ("plant", "ExoskeletonArm"),
+        ("operator", "HumanOperator"),
+    ],
+    wires: &[
+        (("plant", "q[i]"), ("controller", "q[i]")),
+        (("plant", "f_h_measured[i]"), ("controller", "f_h[i]")),
+        (("controller", "tau_a[i]"), ("plant", "tau_a[i]")),
+        (("operator", "f_h[i]"), ("plant", "f_h[i]")),
+        (("plant", "p[i]"), ("operator", "p[i]")),
+        (("plant", "dp[i]"), ("operator", "dp[i]")),
+    ],
+    start: &[
+        ("controller", "delay", "1"),
+        ("operator", "segment[1].amplitude", "6.0"),
+    ],
+};
+
+/// A controller and an operator for each arm.
+const ARMS: System<'static> = System {
+    parts: &[
+        ("left_controller", "ArmController"),
+        ("right_controller", "ArmController"),
+        ("plant", "ExoskeletonArms"),
+        ("left_operator", "HumanOperator"),
+        ("right_operator", "HumanOperator"),
+    ],
+    wires: &[
+        (("plant", "left.q[i]"), ("left_controller", "q[i]")),
+        (("plant", "right.q[i]"), ("right_controller", "q[i]")),
+        (("left_operator", "f_h[i]"), ("left_controller", "f_h[i]")),
+        (("right_operator", "f_h[i]"), ("right_controller", "f_h[i]")),
+        (("left_controller", "tau_a[i]"), ("plant", "left.tau_a[i]")),
+        (
+            ("right_controller", "tau_a[i]"),
+            ("plant", "right.tau_a[i]"),
+        ),
+        (("left_operator", "f_h[i]"), ("plant", "left.f_h[i]")),
+        (("right_operator", "f_h[i]"), ("plant", "right.f_h[i]")),
+        (("plant", "left.p[i]"), ("left_operator", "p[i]")),
+        (("plant", "right.p[i]"), ("right_operator", "p[i]")),
+        (("plant", "left.dp[i]"), ("left_operator", "dp[i]")),
+        (("plant", "right.dp[i]"), ("right_operator", "dp[i]")),
+    ],
+    start: &[
+        ("left_controller", "delay", "1"),
+        ("right_controller", "delay", "1"),
+        ("left_operator", "segment[1].amplitude", "6.0"),
+        ("right_operator", "segment[1].amplitude", "6.0"),
+    ],
+};
+
+/// The system that the quick start of an FMU builds; without parts where there is none. What is exchanged at once comes one
+/// tick late, as the controllers are told.
+pub fn system(fmu: &str) -> System<'static> {
+    match fmu {
+        "TestbedController" | "Testbed" => TESTBED,
+        "ArmController" | "ExoskeletonArm" | "HumanOperator" => ARM,
+        "ExoskeletonArms" => ARMS,
+        _ => System::default(),
+    }
 }
 
 #[cfg(test)]
@@ -114,6 +189,101 @@ mod tests {
     fn each_fmu_has_connections() {
         for fmu in FMUS {
             assert!(!of(fmu.name).is_empty(), "{}", fmu.name);
+        }
+    }
+
+    /// The FMU of a part.
+    fn fmu_of(system: System<'static>, part: &str) -> &'static str {
+        let found = system.parts.iter().find(|(name, _)| *name == part);
+        found.unwrap_or_else(|| panic!("no part {part}")).1
+    }
+
+    #[test]
+    fn the_system_of_each_fmu_has_it_as_a_part_and_makes_each_of_its_connections() {
+        for fmu in FMUS {
+            let system = system(fmu.name);
+            assert!(system.parts.iter().any(|(_, of)| *of == fmu.name));
+            let wires: Vec<_> = system
+                .wires
+                .iter()
+                .map(|(from, to)| {
+                    (
+                        (fmu_of(system, from.0), from.1),
+                        (fmu_of(system, to.0), to.1),
+                    )
+                })
+                .collect();
+            let known = |one: &Connection<'_>| {
+                [one.from.0, one.to.0]
+                    .iter()
+                    .all(|end| system.parts.iter().any(|(_, of)| of == end))
+            };
+            let usual = CONNECTIONS.iter().filter(|one| {
+                known(one) && (one.when.is_empty() || [LEFT, RIGHT].contains(&one.when))
+            });
+            let mut made = 0;
+            for one in usual {
+                let count = wires
+                    .iter()
+                    .filter(|wire| **wire == (one.from, one.to))
+                    .count();
+                assert!(count > 0, "{}: {one:?}", fmu.name);
+                made += 1;
+            }
+            assert!(made >= 3, "{}", fmu.name);
+            for (from, to) in wires {
+                assert!(
+                    CONNECTIONS
+                        .iter()
+                        .any(|one| (one.from, one.to) == (from, to)),
+                    "{from:?} → {to:?} is in no table"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn an_input_of_a_system_has_one_source_and_every_part_gives_and_takes() {
+        for system in [TESTBED, ARM, ARMS] {
+            let mut inputs: Vec<_> = system.wires.iter().map(|(_, to)| *to).collect();
+            inputs.sort_unstable();
+            let all = inputs.len();
+            inputs.dedup();
+            assert_eq!(inputs.len(), all);
+            for (part, _) in system.parts {
+                assert!(
+                    system.wires.iter().any(|(from, _)| from.0 == *part),
+                    "{part}"
+                );
+                assert!(system.wires.iter().any(|(_, to)| to.0 == *part), "{part}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_system_starts_with_values_that_its_variables_take() {
+        for system in [TESTBED, ARM, ARMS] {
+            for (part, variable, value) in system.start {
+                let [entry] = &*end((fmu_of(system, part), variable)) else {
+                    panic!("{variable}");
+                };
+                let value: f64 = value.parse().expect("a number");
+                let fits = match entry.kind {
+                    Kind::Real { min, max, .. } => {
+                        min.is_none_or(|min| min <= value) && max.is_none_or(|max| value <= max)
+                    }
+                    Kind::Integer { min, max, .. } => {
+                        value.fract() == 0.0
+                            && min.is_none_or(|min| f64::from(min) <= value)
+                            && max.is_none_or(|max| value <= f64::from(max))
+                    }
+                    _ => false,
+                };
+                assert!(
+                    fits && !entry.is_calculated(),
+                    "{part}.{variable} = {value}"
+                );
+            }
         }
     }
 }

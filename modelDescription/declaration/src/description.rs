@@ -35,8 +35,8 @@ pub struct Description<M: 'static> {
     pub stepping: Stepping,
     /// Default experiment.
     pub experiment: Experiment,
-    /// The rows, in the order of the XML. Each bears a number, or none does: then its position is one. The number decides
-    /// the value reference, so it stays when others come: append, never reorder.
+    /// The rows. Each bears a number, or none does: then its position is one. The number decides the value reference, so it
+    /// stays when others come: append, never reorder. The XML has an [order](Self::in_order) of its own.
     pub variables: &'static [Variable<M>],
 }
 
@@ -91,7 +91,7 @@ impl<M> Description<M> {
         (element < variable.len).then_some((variable, element))
     }
 
-    /// All scalars, in the order of the XML.
+    /// All scalars, in the order of the rows.
     pub fn scalars(&self) -> impl Iterator<Item = Scalar<M>> + use<M> {
         self.variables
             .iter()
@@ -108,5 +108,28 @@ impl<M> Description<M> {
                     element,
                 })
             })
+    }
+
+    /// All scalars in the order of the XML, in which importers show them: by causality, then by group, then as the rows stand.
+    /// A group is what bears one name before the first dot; what has no dot comes first.
+    #[cfg(feature = "std")]
+    pub fn in_order(&self) -> Vec<Scalar<M>> {
+        let mut groups = vec![String::new()];
+        let mut sorted: Vec<_> = self
+            .scalars()
+            .map(|scalar| {
+                let name = scalar.variable.full_name();
+                let group = name.split_once('.').map_or("", |(group, _)| group);
+                let known = groups.iter().position(|one| one == group);
+                let group = known.unwrap_or_else(|| {
+                    groups.push(group.to_owned());
+                    groups.len() - 1
+                });
+                ((scalar.variable.causality.position(), group), scalar)
+            })
+            .collect();
+        // Stable.
+        sorted.sort_by_key(|(key, _)| *key);
+        sorted.into_iter().map(|(_, scalar)| scalar).collect()
     }
 }

@@ -5,11 +5,12 @@ use core::fmt::Write as _;
 
 impl<M: Declare> Description<M> {
     /// The guid: a hash (UUID version 5) over everything an importer can rely on: names, value references, types,
-    /// units, bounds, start values, causality, variability. Descriptions are left out.
+    /// units, bounds, start values, causality, variability, and their order, by which some number the ports of a block.
+    /// Descriptions are left out.
     pub fn guid(&self) -> String {
         let start = M::default();
         let mut text = format!("{} {:?} {:?}\n", self.name, self.stepping, self.experiment);
-        for scalar in self.scalars() {
+        for scalar in self.in_order() {
             let (v, i) = (scalar.variable, scalar.element);
             let kind = match &v.access {
                 Access::Real { unit, range, at } => {

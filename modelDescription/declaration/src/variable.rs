@@ -19,6 +19,28 @@ pub enum Causality {
     Local,
 }
 
+impl Causality {
+    /// All of them, in the order in which an interface is shown: what goes in, what comes out, what can be set.
+    pub const IN_ORDER: [Self; 5] = [
+        Self::Input,
+        Self::Output,
+        Self::Parameter,
+        Self::CalculatedParameter,
+        Self::Local,
+    ];
+
+    /// Its place in [`IN_ORDER`](Self::IN_ORDER), from 0.
+    pub const fn position(self) -> usize {
+        match self {
+            Self::Input => 0,
+            Self::Output => 1,
+            Self::Parameter => 2,
+            Self::CalculatedParameter => 3,
+            Self::Local => 4,
+        }
+    }
+}
+
 /// When the variable may change (FMI 2.0, section 2.2.7).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Variability {

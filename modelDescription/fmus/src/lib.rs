@@ -12,7 +12,7 @@
 //! ```
 
 /// Calls the macro `$then` with a row for each FMU: the type that declares it, by its path, and the picture in its interface
-/// document, `modelDescription/pictures/<picture>.svg`. The type's name is the FMU's name, its crate's the package's.
+/// document, `modelDescription/pictures/<picture>.svg`. What the model does is told in `modelDescription/documents/<Name>.html`. The type's name is the FMU's name, its crate's the package's.
 #[macro_export]
 macro_rules! each {
     ($then:ident) => {
@@ -21,8 +21,8 @@ macro_rules! each {
             testbed::Testbed, picture "testbed";
             arm_controller::ArmController, picture "arm";
             exoskeleton_arm::ExoskeletonArm, picture "arm";
-            exoskeleton_arms::ExoskeletonArms, picture "arm";
-            human_operator::HumanOperator, picture "arm";
+            exoskeleton_arms::ExoskeletonArms, picture "arms";
+            human_operator::HumanOperator, picture "operator";
         }
     };
 }

@@ -11,7 +11,7 @@ use std::str::FromStr as _;
 fn read_as_declared<M: Declare>() {
     let import = import(&importers::archive(M::DESCRIPTION.name)).expect("read");
     let read = variables(&import);
-    let declared: Vec<_> = M::DESCRIPTION.scalars().collect();
+    let declared = M::DESCRIPTION.in_order();
     // After the rows of the model: what every library says of itself.
     let (read, last) = read.split_at(declared.len());
     let last: Vec<_> = last

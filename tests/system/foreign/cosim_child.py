@@ -5,6 +5,7 @@ Reads a job as JSON and prints the outputs after each step:
 | key | what |
 |---|---|
 | `step_ns`, `steps` | the communication step (ns), which libcosim counts in whole numbers, and how many |
+| `ssp` | path of an SSP archive, or null; then the next three are empty |
 | `instances` | name → path of an FMU |
 | `start` | `name.variable` → start value |
 | `connections` | input → output, both as `name.variable` |
@@ -24,11 +25,17 @@ from libcosimpy.CosimSlave import CosimLocalSlave
 
 job = json.load(sys.stdin)
 log_output_level(CosimLogLevel.INFO)
-execution = CosimExecution.from_step_size(step_size=job["step_ns"])
-indices, known = {}, {}
-for instance, path in job["instances"].items():
-    index = execution.add_local_slave(local_slave=CosimLocalSlave(fmu_path=path, instance_name=instance))
-    indices[instance] = index
+if job.get("ssp"):
+    execution = CosimExecution.from_ssp_file(ssp_path=job["ssp"], step_size=job["step_ns"])
+    indices = {slave.name.decode(): slave.index for slave in execution.slave_infos()}
+else:
+    execution = CosimExecution.from_step_size(step_size=job["step_ns"])
+    indices = {
+        instance: execution.add_local_slave(local_slave=CosimLocalSlave(fmu_path=path, instance_name=instance))
+        for instance, path in job["instances"].items()
+    }
+known = {}
+for instance, index in indices.items():
     for v in execution.slave_variables(index):
         known[f"{instance}.{v.name.decode()}"] = (index, v.reference, CosimVariableType(v.type))
 

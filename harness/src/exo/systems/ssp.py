@@ -3,8 +3,13 @@
 * Connectors: every input that is wired and every Real, Integer and Boolean output. What is not wired keeps the start
   value of its FMU; a connector without a connection would be set to zero by fmpy.
 * Parameters are files, not inline values, which fmpy ignores. The description binds the default set; another one is
-  chosen in fmpy by `read_ssv(archive, resource="resources/<set>.ssv")`, elsewhere by changing that one binding.
-* The annotation `org.openmodelica` names the master algorithm: OMSimulator's command line wants it.
+  chosen in fmpy by `read_ssv(archive, resource="resources/<set>.ssv")`, elsewhere by `exo ssp --set` or by changing the
+  binding.
+* A system with inputs binds one file, whose names are `component.variable`. A system without inputs has no connector of
+  its own, connects components only and binds one file at each component, because Ecos and libcosim read nothing else.
+  The files of one case bear the same set name: Ecos chooses a set by it.
+* The annotations `org.openmodelica` name the master algorithm and the result file: OMSimulator's command line wants the
+  first and complains of deprecated content without the second.
 * Two runs give the same bytes: one date, fixed order, and entries that are stored, so that no version of a compressor
   has a say (the FMUs are compressed already).
 """
@@ -33,6 +38,8 @@ DATE = (1980, 1, 1, 0, 0, 0)
 #: Exponents of a unit, by the name that SSP and FMI give them.
 EXPONENTS = ("kg", "m", "s", "A", "K", "mol", "cd", "rad")
 TYPES = ("Real", "Integer", "Boolean")
+#: What OMSimulator records, with its own defaults: every step, ten rows at a time, all signals.
+RECORDING = {"loggingInterval": "0.0", "bufferSize": "10", "signalFilter": ""}
 
 
 def write(*, system: System, archives: Mapping[str, Archive], folder: Path) -> Path:
@@ -47,7 +54,10 @@ def content(*, system: System, archives: Mapping[str, Archive]) -> bytes:
     """The archive's bytes."""
     files = {"SystemStructure.ssd": description(system=system, archives=archives)}
     for name in system.parameter_sets:
-        files[resource(name)] = parameter_set(system=system, archives=archives, name=name)
+        for component in bound_at(system):
+            files[resource(name, component)] = parameter_set(
+                system=system, archives=archives, name=name, component=component
+            )
     for archive in sorted(set(system.components.values())):
         files[f"resources/{archive}"] = archives[archive].path.read_bytes()
     buffer = BytesIO()
@@ -60,9 +70,15 @@ def content(*, system: System, archives: Mapping[str, Archive]) -> bytes:
     return buffer.getvalue()
 
 
-def resource(parameter_set_name: str) -> str:
-    """Where a parameter set lies in the archive."""
-    return f"resources/{parameter_set_name}.ssv"
+def bound_at(system: System) -> tuple[str | None, ...]:
+    """Where parameters are bound: at the system, which is None, or without inputs at each component."""
+    return (None,) if system.inputs else tuple(system.components)
+
+
+def resource(parameter_set_name: str, component: str | None = None) -> str:
+    """Where a parameter set lies in the archive, the whole of it or a component's part."""
+    part = f".{component}" if component else ""
+    return f"resources/{parameter_set_name}{part}.ssv"
 
 
 def description(*, system: System, archives: Mapping[str, Archive]) -> bytes:
@@ -73,20 +89,21 @@ def description(*, system: System, archives: Mapping[str, Archive]) -> bytes:
         attrib={"version": VERSION, "name": system.name, "description": system.title, "generationTool": TOOL},
     )
     top = _ssd(root, "System", name=system.name, description=system.title)
-    connectors = _ssd(top, "Connectors")
     units: dict[str, Any] = {}
+    connectors = _ssd(top, "Connectors") if system.inputs else None
     for name, targets in system.inputs.items():
         component, variable = targets[0].split(".", 1)
         archive = archives[system.components[component]]
         _connector(connectors, name, "input", archive.variable(variable).type, _unit(archive, variable, units))
-    binding = _ssd(_ssd(top, "ParameterBindings"), "ParameterBinding")
-    binding.set("source", resource(system.default))
+    if system.inputs:
+        _bind(top, resource(system.default))
     elements = _ssd(top, "Elements")
     wired = [*system.connections, *(target for targets in system.inputs.values() for target in targets)]
     for name, file in system.components.items():
-        _component(
-            elements, name, archives[file], [w.split(".", 1)[1] for w in wired if w.startswith(f"{name}.")], units
-        )
+        inputs = [w.split(".", 1)[1] for w in wired if w.startswith(f"{name}.")]
+        component = _component(elements, name, archives[file], inputs, units)
+        if not system.inputs:
+            _bind(component, resource(system.default, name))
     connections = _ssd(top, "Connections")
     for source, targets in system.inputs.items():
         for target in targets:
@@ -96,12 +113,14 @@ def description(*, system: System, archives: Mapping[str, Archive]) -> bytes:
         _connection(connections, element, connector, target)
     _master(top, system.step)
     _units(etree.SubElement(root, f"{{{SSD}}}Units"), units.values())
-    _ssd(root, "DefaultExperiment", startTime="0.0", stopTime=repr(system.duration))
+    experiment = _ssd(root, "DefaultExperiment", startTime="0.0", stopTime=repr(system.duration))
+    _omsimulator(experiment, RECORDING | {"resultFile": f"{system.name}_res.csv"})
     return _bytes(root)
 
 
-def parameter_set(*, system: System, archives: Mapping[str, Archive], name: str) -> bytes:
-    """One `.ssv`: the start values of a case, and `engage` for tools that exchange before the first step."""
+def parameter_set(*, system: System, archives: Mapping[str, Archive], name: str, component: str | None = None) -> bytes:
+    """One `.ssv`: the start values of a case, and `engage` for tools that exchange before the first step; with a
+    component its part, by the names of its own variables."""
     root = etree.Element(
         f"{{{SSV}}}ParameterSet",
         nsmap={"ssv": SSV, "ssc": SSC},
@@ -109,12 +128,15 @@ def parameter_set(*, system: System, archives: Mapping[str, Archive], name: str)
     )
     parameters = etree.SubElement(root, f"{{{SSV}}}Parameters")
     units: dict[str, Any] = {}
-    _parameter(parameters, ENGAGE, "Boolean", 1, "")
+    if component is None:
+        _parameter(parameters, ENGAGE, "Boolean", 1, "")
     for key, value in system.parameter_sets[name].items():
-        component, variable = key.split(".", 1)
-        archive = archives[system.components[component]]
+        part, variable = key.split(".", 1)
+        if component not in (None, part):
+            continue
+        archive = archives[system.components[part]]
         kind, number = _checked(archive, variable, value)
-        _parameter(parameters, key, kind, number, _unit(archive, variable, units))
+        _parameter(parameters, variable if component else key, kind, number, _unit(archive, variable, units))
     if units:
         _units(etree.SubElement(root, f"{{{SSV}}}Units"), units.values())
     return _bytes(root)
@@ -136,7 +158,11 @@ def _parameter(parent: Any, name: str, kind: str, number: float, unit: str) -> N
         value.set("unit", unit)
 
 
-def _component(parent: Any, name: str, archive: Archive, inputs: list[str], units: dict[str, Any]) -> None:
+def _bind(parent: Any, source: str) -> None:
+    _ssd(_ssd(parent, "ParameterBindings"), "ParameterBinding", source=source)
+
+
+def _component(parent: Any, name: str, archive: Archive, inputs: list[str], units: dict[str, Any]) -> Any:
     component = _ssd(
         parent,
         "Component",
@@ -150,6 +176,7 @@ def _component(parent: Any, name: str, archive: Archive, inputs: list[str], unit
     for variable in [*sorted(inputs, key=list(archive.variables).index), *outputs]:
         described = archive.variable(variable)
         _connector(connectors, variable, described.causality, described.type, _unit(archive, variable, units))
+    return component
 
 
 def _connector(parent: Any, name: str, kind: str, type_name: str, unit: str) -> None:
@@ -166,13 +193,16 @@ def _connection(parent: Any, element: str | None, connector: str, target: str) -
 
 
 def _master(parent: Any, step: float) -> None:
-    annotation = etree.SubElement(_ssd(parent, "Annotations"), f"{{{SSC}}}Annotation", type="org.openmodelica")
-    information = etree.SubElement(
-        etree.SubElement(annotation, f"{{{OMS}}}Annotations"), f"{{{OMS}}}SimulationInformation"
-    )
     tolerances = {"absoluteTolerance": "0.0001", "relativeTolerance": "0.0001"}
     attributes = {"description": "oms-ma", "stepSize": repr(step)} | tolerances
-    etree.SubElement(information, f"{{{OMS}}}FixedStepMaster", attrib=attributes)
+    etree.SubElement(_omsimulator(parent), f"{{{OMS}}}FixedStepMaster", attrib=attributes)
+
+
+def _omsimulator(parent: Any, attributes: Mapping[str, str] | None = None) -> Any:
+    """An annotation for OMSimulator, with the attributes of its `SimulationInformation`."""
+    annotation = etree.SubElement(_ssd(parent, "Annotations"), f"{{{SSC}}}Annotation", type="org.openmodelica")
+    annotations = etree.SubElement(annotation, f"{{{OMS}}}Annotations")
+    return etree.SubElement(annotations, f"{{{OMS}}}SimulationInformation", attrib=dict(attributes or {}))
 
 
 def _unit(archive: Archive, name: str, units: dict[str, Any]) -> str:

@@ -9,11 +9,13 @@ The tools that run such a system exchange all values at once: the harness' `exch
 are the only ones that do not come from a scenario:
 
 * the torque comes one tick late, so that every parameter set has `controller.delay = 1` (its energy ledger must know);
-* some tools step once before they exchange for the first time. `controller.engage` is therefore an input of the system:
-  held at false until the first exchange, the controller does not engage where no position has been read.
+* fmpy steps once before it exchanges for the first time. `controller.engage` is therefore an input of the system: held
+  at false until the first exchange, the controller does not engage where no position has been read.
+
+Tools that connect components only run the same systems without inputs: `exo.systems.closed`.
 """
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
 from exo import scenario as scenarios
@@ -72,12 +74,16 @@ class System:
     duration: float
 
 
-def load(name: str) -> System:
-    """The system of this name, from the scenarios as they are now."""
+def load(name: str, *, default: str | None = None) -> System:
+    """The system of this name, from the scenarios as they are now. `default` is the parameter set that holds where a
+    tool is told nothing, if it is not the recipe's."""
     if name not in RECIPES:
         raise ScenarioError(f"unknown system {name}{close_matches(name, RECIPES)}")
     recipe = RECIPES[name]
     plans = case_plans(name)
+    bound = default or recipe.default
+    if bound not in plans:
+        raise ScenarioError(f"{name}: unknown parameter set {bound}{close_matches(bound, plans)}")
     first = next(iter(plans.values()))
     wiring: dict[str, str] = {f"controller.{ENGAGE}": f"{PROFILE}.{ENGAGE}"}
     for key, one in plans.items():
@@ -98,9 +104,9 @@ def load(name: str) -> System:
         connections={to: origin for to, origin in wiring.items() if origin.split(".", 1)[0] != PROFILE},
         inputs=outside,
         parameter_sets={key: one.parameters for key, one in plans.items()},
-        default=recipe.default,
+        default=bound,
         step=first.step,
-        duration=plans[recipe.default].duration,
+        duration=plans[bound].duration,
     )
 
 
@@ -111,3 +117,16 @@ def case_plans(name: str) -> dict[str, Plan]:
         for data in map(scenarios.load, RECIPES[name].scenarios)
         for case in data.cases
     }
+
+
+def defaults(names: Iterable[str]) -> dict[str, str]:
+    """The parameter set of each system that is named here, by the system's name."""
+    sets = {key: name for name in RECIPES for key in case_plans(name)}
+    found: dict[str, str] = {}
+    for key in names:
+        if key not in sets:
+            raise ScenarioError(f"unknown parameter set {key}: expected <scenario>-<case>{close_matches(key, sets)}")
+        if other := found.get(sets[key]):
+            raise ScenarioError(f"{sets[key]} takes one parameter set, got {other} and {key}")
+        found[sets[key]] = key
+    return found
