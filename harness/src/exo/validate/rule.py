@@ -58,7 +58,9 @@ def warning(rule_id: str, text: str) -> Rule:
 
 def printable(text: str, limit: int = 300) -> str:
     """`text` without control characters (an archive may carry terminal codes in its names), shortened."""
-    safe = "".join(c if c.isprintable() else c.encode("unicode_escape").decode("ascii") for c in text)
+    safe = text[: limit + 1]
+    if not safe.isprintable():
+        safe = "".join(c if c.isprintable() else c.encode("unicode_escape").decode("ascii") for c in safe)
     return safe if len(safe) <= limit else f"{safe[:limit]}…"
 
 
