@@ -6,7 +6,7 @@ ITEMS = 100
 
 
 def large(parts: Parts, size: int) -> Parts:
-    """Replaces the variables of the FMU in C by `size` others, in tens: a state, its derivative and what depends on it."""
+    """Replaces the variables of the FMU in C by `size` others, in tens: a state, its derivative, an output, …."""
     variables, outputs, derivatives = [], [], []
     for index in range(1, size + 1):
         causality, variability, start, extra, kind = "local", "discrete", "", "", "Real"
@@ -26,7 +26,7 @@ def large(parts: Parts, size: int) -> Parts:
                 kind, extra = "Enumeration", ' declaredType="Choice"'
         unit = ' unit="rad"' if kind == "Real" else ""
         variables.append(
-            f'<ScalarVariable name="plant.subsystem{index // 10}.value[{10**9 - 1 - index}].part" description="one of many"'
+            f'<ScalarVariable name="plant.subsystem{index // 10}.value[{10**9 - 1 - index}].part" description="one"'
             f' valueReference="{index}" causality="{causality}" variability="{variability}">'
             f"<{kind}{unit}{extra}{start}/></ScalarVariable>"
         )
@@ -34,7 +34,8 @@ def large(parts: Parts, size: int) -> Parts:
     text = parts.entries[XML].decode()
     head, rest = text.split("<ModelVariables>")
     head = head.replace(
-        "</TypeDefinitions>", f'<SimpleType name="Choice"><Enumeration>{items}</Enumeration></SimpleType></TypeDefinitions>'
+        "</TypeDefinitions>",
+        f'<SimpleType name="Choice"><Enumeration>{items}</Enumeration></SimpleType></TypeDefinitions>',
     )
     end = rest.partition("</ModelStructure>")[2]
     parts.entries[XML] = (

@@ -149,7 +149,9 @@ def emptied(parts: Parts) -> None:
 def latin1(parts: Parts) -> None:
     """The description in Latin-1, with a letter that shows it."""
     text = parts.entries[XML].decode().replace('encoding="UTF-8"', 'encoding="ISO-8859-1"')
-    parts.entries[XML] = text.replace('description="', 'description="größer: ', 1).encode("latin-1", "xmlcharrefreplace")
+    parts.entries[XML] = text.replace('description="', 'description="größer: ', 1).encode(
+        "latin-1", "xmlcharrefreplace"
+    )
 
 
 INITIAL = "ModelStructure/InitialUnknowns"
@@ -380,7 +382,11 @@ FOLDERS = [
     Mutant("layout-license-text", "no texts", remove("documentation/licenses/")),
     Mutant("documentation-index", "called main.html", rename(INDEX, "documentation/main.html")),
     Mutant("documentation-encoding", "Latin-1 that says UTF-8", lambda p: p.replace(INDEX, b"</body>", b"\xe4</body>")),
-    Mutant("documentation-encoding", "an unknown charset", lambda p: p.replace(INDEX, b'charset="utf-8"', b'charset="base64"')),
+    Mutant(
+        "documentation-encoding",
+        "an unknown charset",
+        lambda p: p.replace(INDEX, b'charset="utf-8"', b'charset="base64"'),
+    ),
     Mutant("documentation-link", "a page that is not there", page('<a href="more.html">more</a>')),
     Mutant("documentation-link", "another case", page('<a href="Licenses/license.txt">licence</a>')),
     Mutant("documentation-link", "a picture that is not there", page('<img src="frames.png" alt="frames">')),

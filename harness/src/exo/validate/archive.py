@@ -21,10 +21,13 @@ METHOD = error("archive-method", "entries are stored or deflated")
 SIZE = error("archive-size", "no entry and no total is larger than any real FMU, nor compressed beyond belief")
 DUPLICATE = error("archive-duplicate", "no name occurs twice")
 PATH = error(
-    "archive-path", "names are relative and stay in the archive: no `..`, leading slash, drive, empty part, control character"
+    "archive-path",
+    "names are relative and stay in the archive: no `..`, leading slash, drive, empty part, control character",
 )
 BACKSLASH = error("archive-backslash", "names use forward slashes")
-LENGTH = error("archive-length", "no name is longer than 1000 bytes, and no part of one than 255: systems cannot extract it")
+LENGTH = error(
+    "archive-length", "no name is longer than 1000 bytes, and no part of one than 255: systems cannot extract it"
+)
 LINK = error("archive-link", "entries are files and folders, not links")
 ASCII = error("archive-ascii", "names are printable ASCII")
 CASE = error("archive-case", "names stay unique when case is folded, and no file is also a folder")

@@ -86,7 +86,9 @@ class Description:
 
     def __init__(self, root: etree._Element) -> None:
         self.root = root
-        self.types = {element.get("name", ""): SimpleType(element) for element in self.all("TypeDefinitions/SimpleType")}
+        self.types = {
+            element.get("name", ""): SimpleType(element) for element in self.all("TypeDefinitions/SimpleType")
+        }
         self.variables = tuple(
             self._variable(index, element)
             for index, element in enumerate(self.all("ModelVariables/ScalarVariable"), start=1)

@@ -23,7 +23,7 @@ LINKS = ("href", "src", "poster", "data", "xlink:href")
 LOADED = ("img", "script", "link", "iframe", "object", "video", "audio", "source", "embed", "image", "use")
 #: A declaration, as HTML and XML write it, within the first kilobyte.
 CHARSET = re.compile(rb"""(?:charset|encoding)\s{0,9}=\s{0,9}["']?([A-Za-z0-9_:.-]{1,40})""", re.IGNORECASE)
-BOMS = {b"\xef\xbb\xbf": "utf-8", b"\xff\xfe": "utf-16-le", b"\xfe\xff": "utf-16-be"}
+BOMS = {b"\xef\xbb\xbf": "utf-8", b"\xff\xfe": "utf-16le", b"\xfe\xff": "utf-16be"}
 #: Charsets of web pages. Python knows more codecs, some of which decode no text.
 CHARSETS = re.compile(
     r"utf-?8|utf-?16(le|be)?|(us-)?ascii|latin-?1|iso-?8859-\d+|iso-2022-jp|(windows|cp)-?125\d|koi8-[ru]"
@@ -81,7 +81,7 @@ def findings(contents: Contents) -> Iterator[Finding]:
     spelt = {name.casefold(): name for name in contents.files}
     for name, page in pages.items():
         for line, tag, target in page.links:
-            for rule, expected in _link(contents, pages, spelt, name, tag, target):
+            for rule, expected in _link(contents, pages, spelt, page=name, tag=tag, target=target):
                 yield rule.at(f"{name}:{line} <{tag}>", target, expected)
 
 
@@ -103,7 +103,7 @@ def decoded(data: bytes) -> tuple[str, str]:
 
 
 def _link(
-    contents: Contents, pages: Mapping[str, Page], spelt: Mapping[str, str], page: str, tag: str, target: str
+    contents: Contents, pages: Mapping[str, Page], spelt: Mapping[str, str], *, page: str, tag: str, target: str
 ) -> Iterator[tuple[Rule, str]]:
     """The rules that a link breaks, with what was expected. `spelt`: names by what they are when case is folded."""
     try:

@@ -88,7 +88,7 @@ class Slave:
         return (value.value or b"").decode("utf-8", "replace") if kind == "String" else value.value
 
     def read_all(self, component: c_void_p, fact: str, variables: list[tuple[int, str, int]]) -> None:
-        """Reads variables one by one and tells index and value, many at a time: writing each takes longer than reading."""
+        """Reads variables one by one and tells index and value of many at a time: writing takes longer than reading."""
         for first in range(0, len(variables), TOLD_AT_ONCE):
             part = variables[first : first + TOLD_AT_ONCE]
             self.tell({fact: [[index, self.read(component, kind, reference)] for index, kind, reference in part]})
