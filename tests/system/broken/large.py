@@ -7,7 +7,7 @@ ITEMS = 100
 
 def large(parts: Parts, size: int) -> Parts:
     """Replaces the variables of the FMU in C by `size` others, in tens: a state, its derivative, an output, …."""
-    variables, outputs, derivatives = [], [], []
+    variables, outputs, derivatives, initial = [], [], [], []
     for index in range(1, size + 1):
         causality, variability, start, extra, kind = "local", "discrete", "", "", "Real"
         match index % 10:
@@ -24,6 +24,8 @@ def large(parts: Parts, size: int) -> Parts:
             case 5:
                 causality, variability, start = "parameter", "fixed", f' start="{index % ITEMS + 1}"'
                 kind, extra = "Enumeration", ' declaredType="Choice"'
+        if index % 10 in (1, 2, 3):
+            initial.append(f'<Unknown index="{index}" dependencies=""/>')
         unit = ' unit="rad"' if kind == "Real" else ""
         variables.append(
             f'<ScalarVariable name="plant.subsystem{index // 10}.value[{10**9 - 1 - index}].part" description="one"'
@@ -40,6 +42,7 @@ def large(parts: Parts, size: int) -> Parts:
     end = rest.partition("</ModelStructure>")[2]
     parts.entries[XML] = (
         f"{head}<ModelVariables>{''.join(variables)}</ModelVariables><ModelStructure><Outputs>{''.join(outputs)}</Outputs>"
-        f"<Derivatives>{''.join(derivatives)}</Derivatives><InitialUnknowns/></ModelStructure>{end}"
+        f"<Derivatives>{''.join(derivatives)}</Derivatives>"
+        f"<InitialUnknowns>{''.join(initial)}</InitialUnknowns></ModelStructure>{end}"
     ).encode()
     return parts
