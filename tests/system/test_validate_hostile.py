@@ -20,7 +20,7 @@ from exo.validate import Report, binaries, check, child, naming
 from exo.validate.documentation import Page
 
 from broken.large import large
-from broken.parts import INDEX, plain
+from broken.parts import INDEX, XML, plain
 
 
 @pytest.fixture(autouse=True)
@@ -173,6 +173,23 @@ def test_a_full_disk_is_one_sentence(tmp_path: Path, monkeypatch: pytest.MonkeyP
     monkeypatch.setattr(Path, "write_bytes", full)
     with pytest.raises(FmuError, match=r"cannot be extracted into .*No space left"):
         check(path)
+
+
+@pytest.mark.parametrize("name", ["resources", "documentation", "binaries", "binaries/linux64", "licenses"])
+def test_a_file_where_a_folder_is_meant_ends_no_checker(name: str, tmp_path: Path) -> None:
+    parts = plain(tmp_path)
+    for inside in [entry for entry in parts.entries if entry.startswith(f"{name}/")]:
+        del parts.entries[inside]
+    parts.entries[name] = b"x"
+    assert rules(check(parts.write(tmp_path)))
+
+
+@pytest.mark.parametrize("name", ["binaries/linux64/Plain.so", INDEX, XML])
+def test_a_folder_where_a_file_is_meant_ends_no_checker(name: str, tmp_path: Path) -> None:
+    parts = plain(tmp_path)
+    del parts.entries[name]
+    parts.entries[f"{name}/x"] = b"x"
+    assert rules(check(parts.write(tmp_path)))
 
 
 @pytest.mark.usefixtures("only_loading")

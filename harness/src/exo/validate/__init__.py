@@ -1,6 +1,7 @@
 """Judges FMI 2.0 co-simulation FMUs, this project's or any other's: fmpy's validation, and what that misses.
 
-1. `archive.py`: the ZIP file, read without trusting it. Only a safe archive is gone on with.
+1. `archive.py`: the ZIP file, read without trusting it. What is merely wrong in it does not hide what comes after; what
+   is not safe ends the check.
 2. `description.py`: the XML, without document types and entities.
 3. `fmpy`: schema, required start values, causality with variability, completeness of ModelStructure.
 4. `header.py`, `variables.py`, `naming.py`, `units.py` with `si.py`, `structure.py`: what schema and fmpy do not see.
@@ -9,7 +10,8 @@
 7. `load.py`: the library of this machine, run through one step.
 
 Steps 6 and 7 happen in `probe.py`, in a process of its own (`child.py`): a crash is a finding, not an end. Loading runs
-the FMU's machine code with the rights of the caller; `load=False` leaves step 7 out.
+the FMU's machine code with the rights of the caller; `run=False` leaves step 7 out. What is extracted lies in a folder
+that goes with the check (`workspace.py`).
 
 Not checked: model exchange (a ModelExchange element is only seen by the schema), FMI 1.0 and 3.0 (refused by
 `xml-version`), source code FMUs beyond the presence of `sources/`, libraries of other machines beyond their file, and

@@ -169,7 +169,7 @@ def parse(data: bytes) -> tuple[Description | None, list[Finding]]:
     found = list(_prolog(data))
     if any(finding.rule not in (DECLARATION.id, ENCODING.id) for finding in found):
         return None, found
-    # huge_tree lifts the limits of depth and of single texts, which hold against entities: there are none here.
+    # Not huge_tree: depth and single texts stay limited, whatever the size of the whole.
     parser = etree.XMLParser(resolve_entities=False, load_dtd=False, no_network=True, huge_tree=False)
     try:
         root = etree.fromstring(data, parser)

@@ -63,7 +63,8 @@ def missing(refusal: str) -> str | None:
 def findings(description: Description, folder: Path, path: Path, skipped: list[str]) -> Iterator[Finding]:
     """All of this module's rules; adds to `skipped` when this machine cannot judge."""
     variables = {v.index: v for v in description.variables if v.kind and _reference(v) is not None}
-    (folder / "resources").mkdir(exist_ok=True)
+    if not (folder / "resources").exists():  # it may be a file
+        (folder / "resources").mkdir()
     experiment = description.first("DefaultExperiment")
     times = {} if experiment is None else {key: number(experiment.get(key)) for key in ("startTime", "stepSize")}
     step = times.get("stepSize")

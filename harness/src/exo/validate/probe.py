@@ -6,6 +6,7 @@ is the FMU, not a wrapper.
 
 import ctypes
 import json
+import re
 import sys
 from collections.abc import Callable
 from ctypes import CFUNCTYPE, Structure, byref, c_char_p, c_double, c_int, c_size_t, c_uint, c_void_p
@@ -149,8 +150,8 @@ def inspect(task: dict[str, Any], tell: Tell) -> None:
         versions = [
             auxiliary.name for need in library.symbols_version_requirement for auxiliary in need.get_auxiliary_symbols()
         ]
-        numbers = [str(name).removeprefix("GLIBC_") for name in versions if str(name).startswith("GLIBC_")]
-        facts["glibc"] = [number for number in numbers if number.replace(".", "").isdigit()]
+        numbers = [re.fullmatch(r"GLIBC_([0-9]{1,9}(?:\.[0-9]{1,9})*)", str(name)) for name in versions]
+        facts["glibc"] = [number[1] for number in numbers if number]
     tell({"library": facts})
 
 

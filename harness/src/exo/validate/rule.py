@@ -39,7 +39,7 @@ class Rule:
 
     def at(self, where: str, value: object, expected: str) -> Finding:
         """The finding that this rule is broken."""
-        return Finding(self.id, self.severity, where, printable(str(value)), expected)
+        return Finding(self.id, self.severity, printable(where), printable(str(value)), printable(expected))
 
 
 #: All rules by id, in the order of their modules.
