@@ -131,7 +131,7 @@ def test_who_ends_the_checker_leaves_neither_files_nor_processes(
         command, env={**os.environ, "TMPDIR": str(temporary)}, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
     )
     try:
-        until = time.monotonic() + 60.0
+        until = time.monotonic() + 120.0
         while not any('"fmi2DoStep"' in file.read_text() for file in temporary.glob("*/facts.jsonl")):
             assert time.monotonic() < until
             assert checker.poll() is None
@@ -139,7 +139,7 @@ def test_who_ends_the_checker_leaves_neither_files_nor_processes(
         children = Path(f"/proc/{checker.pid}/task/{checker.pid}/children").read_text(encoding="ascii").split()
         assert children
         checker.send_signal(number)
-        assert checker.wait(30.0) != 0
+        assert checker.wait(60.0) != 0
     finally:
         checker.kill()
         checker.wait()
