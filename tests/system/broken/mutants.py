@@ -140,6 +140,20 @@ def utf16(parts: Parts) -> None:
     parts.entries[XML] = text.encode("utf-16")
 
 
+def emptied(parts: Parts) -> None:
+    """A folder for libraries without any."""
+    remove("binaries/")(parts)
+    parts.entries["binaries/win64/"] = b""
+
+
+def latin1(parts: Parts) -> None:
+    """The description in Latin-1, with a letter that shows it."""
+    text = parts.entries[XML].decode().replace('encoding="UTF-8"', 'encoding="ISO-8859-1"')
+    parts.entries[XML] = text.replace('description="', 'description="größer: ', 1).encode(
+        "latin-1", "xmlcharrefreplace"
+    )
+
+
 INITIAL = "ModelStructure/InitialUnknowns"
 OUTPUTS = "ModelStructure/Outputs"
 UNSAFE: dict[str, Any] = {"fmpy": None}
@@ -160,6 +174,12 @@ ARCHIVE = [
     Mutant("archive-path", "an absolute name", add("/etc/evil"), **UNSAFE),
     Mutant("archive-path", "a drive", add("C:evil"), **UNSAFE),
     Mutant("archive-path", "an empty part", add("resources//x"), **UNSAFE),
+    Mutant("archive-path", "an empty name", add(""), **UNSAFE),
+    Mutant("archive-path", "out of the archive, the Windows way", add("resources\\..\\..\\evil"), **UNSAFE),
+    Mutant("archive-path", "a control character", add("resources/a\x1b[2Jb"), **UNSAFE),
+    Mutant("archive-length", "256 bytes in one part", add(f"resources/{'x' * 256}"), **UNSAFE),
+    Mutant("archive-length", "128 letters of two bytes", add(f"resources/{'ä' * 128}"), **UNSAFE),
+    Mutant("archive-length", "a thousand folders", add("x/" * 1000 + "x"), **UNSAFE),
     Mutant("archive-backslash", "a Windows path", add("resources\\map.csv"), **UNSAFE),
     Mutant("archive-link", "a symbolic link", add("resources/link", b"/etc/passwd", mode=0o120777), **UNSAFE),
     Mutant("archive-ascii", "an umlaut", add("resources/größe.csv"), **UNSAFE),
@@ -180,7 +200,10 @@ TEXT = [
     ),
     Mutant("xml-parses", "an empty file", put(XML, b""), fmpy=True),
     Mutant("xml-doctype", "entities without end", laughs, fmpy=None),
+    Mutant("xml-declaration", "none", xml('<?xml version="1.0" encoding="UTF-8"?>', "")),
+    Mutant("xml-declaration", "no encoding in it", xml(' encoding="UTF-8"?>', "?>")),
     Mutant("xml-encoding", "UTF-16", utf16),
+    Mutant("xml-encoding", "Latin-1", latin1),
     Mutant("xml-root", "another root", edit(".", tag="modelDescription"), fmpy=True),
     Mutant("xml-version", "FMI 3.0", edit(".", fmiVersion="3.0"), fmpy=True),
     Mutant("fmpy", "an output is missing in Outputs", lambda p: p.drop(f"{OUTPUTS}/Unknown"), fmpy=True),
@@ -214,6 +237,12 @@ VARIABLES = [
         insert("ModelVariables", TIME),
     ),
     Mutant("variable-multiple-set", "at a parameter", edit(variable("K"), canHandleMultipleSetPerTimeInstant="false")),
+    Mutant(
+        "variable-multiple-set",
+        "at an input without model exchange",
+        edit(variable("q"), canHandleMultipleSetPerTimeInstant="false"),
+    ),
+    Mutant("variable-structured", "a hyphen", edit(variable("D_n"), name="D-n"), fmpy=True),
     Mutant("variable-reference", "33 bits", edit(variable("K"), valueReference=str(1 << 32)), fmpy=True),
     Mutant("variable-alias", "two parameters with one reference", edit(variable("D_n"), valueReference="4352")),
     Mutant("variable-alias-unit", "a length and a velocity", edit(variable("dq_n"), valueReference="1024")),
@@ -352,7 +381,12 @@ FOLDERS = [
     ),
     Mutant("layout-license-text", "no texts", remove("documentation/licenses/")),
     Mutant("documentation-index", "called main.html", rename(INDEX, "documentation/main.html")),
-    Mutant("documentation-encoding", "Latin-1", lambda p: p.replace(INDEX, b"</body>", b"\xe4</body>")),
+    Mutant("documentation-encoding", "Latin-1 that says UTF-8", lambda p: p.replace(INDEX, b"</body>", b"\xe4</body>")),
+    Mutant(
+        "documentation-encoding",
+        "an unknown charset",
+        lambda p: p.replace(INDEX, b'charset="utf-8"', b'charset="base64"'),
+    ),
     Mutant("documentation-link", "a page that is not there", page('<a href="more.html">more</a>')),
     Mutant("documentation-link", "another case", page('<a href="Licenses/license.txt">licence</a>')),
     Mutant("documentation-link", "a picture that is not there", page('<img src="frames.png" alt="frames">')),
@@ -368,7 +402,9 @@ MACHINE_CODE = [
         "another name",
         rename("binaries/linux64/TestbedController.so", "binaries/linux64/libcontroller.so"),
     ),
+    Mutant("binary-name", "another folder's", edit("CoSimulation", modelIdentifier="../linux64/TestbedController")),
     Mutant("binary-none", "no binary", remove("binaries/")),
+    Mutant("binary-none", "an empty folder", emptied),
     Mutant("binary-wanted", "no darwin64", nothing, options={"platforms": ("linux64", "darwin64")}),
     Mutant("binary-format", "a text", lambda p: p.entries.update({p.library: b"no library"})),
     Mutant(
@@ -395,7 +431,10 @@ MACHINE_CODE = [
 ]
 RUN = [
     Mutant("load-crash", "aborts", nothing, PLAIN, macros=("-DCRASH",)),
-    Mutant("load-crash", "exits", nothing, PLAIN, macros=("-DEXIT",)),
+    Mutant("load-library", "a function that is nowhere", nothing, PLAIN, macros=("-DUNDEFINED",)),
+    Mutant("load-crash", "exits", nothing, PLAIN, macros=("-DEXIT=7",)),
+    Mutant("load-crash", "exits as if all were well", nothing, PLAIN, macros=("-DEXIT=0",)),
+    Mutant("load-crash", "kills itself", nothing, PLAIN, macros=("-DSIGNAL=SIGKILL",)),
     Mutant("load-version", "FMI 2.1", nothing, PLAIN, macros=('-DVERSION="2.1"',)),
     Mutant(
         "load-instantiate", "another guid in the description", edit(".", guid="{45c8ba4b-0000-0000-0000-000000000000}")

@@ -1,6 +1,8 @@
 /* The smallest FMI 2.0 co-simulation FMU: input u (reference 0), output y = u (reference 1). Written against the
  * standard's text, not against this project's exporter. Each macro breaks one thing:
- * CRASH, HANG, EXIT, LOUD, WARNS, ANY_GUID, NO_GUID, VERSION, EXTRA, HOME, INCOMPLETE. */
+ * CRASH, SIGNAL, HANG, EXIT, FORK, LOUD, FLOOD, WARNS, ANY_GUID, NO_GUID, VERSION, EXTRA, HOME, INCOMPLETE, UNDEFINED;
+ * MARK names a file that is written when the library is loaded. */
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -28,6 +30,9 @@ API int step_counter = 0;
 #endif
 #ifdef HOME
 const char *const volatile source = "/home/builder/fmu/plain.c";
+#endif
+#ifdef MARK
+__attribute__((constructor)) static void mark(void) { fclose(fopen(MARK, "w")); }
 #endif
 API const char *fmi2GetTypesPlatform(void) { return "default"; }
 API const char *fmi2GetVersion(void) { return VERSION; }
@@ -69,8 +74,23 @@ API int fmi2DoStep(Component c, double t, double h, int no_set) {
 #ifdef CRASH
   abort();
 #endif
+#ifdef SIGNAL
+  raise(SIGNAL);
+#endif
 #ifdef EXIT
-  _exit(7);
+  _exit(EXIT);
+#endif
+#ifdef FORK
+  int other = fork();
+  if (other == 0) for (;;) pause();
+  printf("%d", other), fflush(stdout);
+#endif
+#ifdef FLOOD
+  for (int i = 0; i < FLOOD; i++) printf("%1000d\n", i);
+#endif
+#ifdef UNDEFINED
+  extern int nowhere(void);
+  return nowhere();
 #endif
 #ifdef HANG
   for (;;) pause();

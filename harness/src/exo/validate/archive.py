@@ -4,11 +4,13 @@ import stat
 import zipfile
 import zlib
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
+from contextlib import ExitStack
 from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 
-from exo.validate.rule import Finding, error, printable, warning
+from exo.errors import FmuError
+from exo.validate.rule import Finding, Severity, error, printable, warning
 
 DESCRIPTION = "modelDescription.xml"
 
@@ -19,9 +21,13 @@ METHOD = error("archive-method", "entries are stored or deflated")
 SIZE = error("archive-size", "no entry and no total is larger than any real FMU, nor compressed beyond belief")
 DUPLICATE = error("archive-duplicate", "no name occurs twice")
 PATH = error(
-    "archive-path", "names are relative and stay in the archive: no `..`, no leading slash, no drive, no empty part"
+    "archive-path",
+    "names are relative and stay in the archive: no `..`, leading slash, drive, empty part, control character",
 )
 BACKSLASH = error("archive-backslash", "names use forward slashes")
+LENGTH = error(
+    "archive-length", "no name is longer than 1000 bytes, and no part of one than 255: systems cannot extract it"
+)
 LINK = error("archive-link", "entries are files and folders, not links")
 ASCII = error("archive-ascii", "names are printable ASCII")
 CASE = error("archive-case", "names stay unique when case is folded, and no file is also a folder")
@@ -35,54 +41,63 @@ MAX_ENTRIES, MAX_ENTRY, MAX_TOTAL, MAX_DESCRIPTION = 50_000, 1 << 30, 2 << 30, 1
 MAX_RATIO, RATIO_FROM = 500, 1 << 20
 
 
+#: Longest part of a name: that of all common file systems. Longest name: leaves room for a folder before it.
+MAX_PART, MAX_NAME = 255, 1000
+#: What is wrong, yet does not hinder reading: the other rules are asked all the same.
+READABLE_STILL = frozenset((BACKSLASH.id, ASCII.id))
+
+
 @dataclass(frozen=True)
 class Contents:
-    """The entries of an archive that is safe to read."""
+    """The entries of an archive that is safe to read. Names have forward slashes, whatever the archive has."""
 
-    path: Path
-    #: Names of files, in the archive's order; folders are left out.
-    files: tuple[str, ...]
+    archive: zipfile.ZipFile
+    #: Files by name, in the archive's order; folders are left out.
+    files: Mapping[str, zipfile.ZipInfo]
     #: Names of folders, those that only files imply too.
     folders: frozenset[str]
 
     def read(self, name: str) -> bytes:
         """The bytes of a file."""
-        with zipfile.ZipFile(self.path) as archive:
-            return archive.read(name)
+        return self.archive.read(self.files[name])
 
     def extract(self, folder: Path) -> None:
-        """Writes all files below `folder`."""
-        with zipfile.ZipFile(self.path) as archive:
+        """Writes all files below `folder`; raises FmuError when the system refuses, as a full disk does."""
+        try:
             for name in self.files:
                 target = folder.joinpath(*PurePosixPath(name).parts)
                 target.parent.mkdir(parents=True, exist_ok=True)
-                target.write_bytes(archive.read(name))
-        for name in self.folders:
-            folder.joinpath(*PurePosixPath(name).parts).mkdir(parents=True, exist_ok=True)
+                target.write_bytes(self.read(name))
+            for name in self.folders:
+                folder.joinpath(*PurePosixPath(name).parts).mkdir(parents=True, exist_ok=True)
+        except (OSError, ValueError) as problem:
+            raise FmuError(f"{self.archive.filename}: cannot be extracted into {folder}: {problem}") from problem
 
 
-def open_archive(path: Path) -> tuple[Contents | None, list[Finding]]:
-    """What the archive holds, or None when it is not safe to go on, and what is wrong with it."""
+def open_archive(path: Path, stack: ExitStack) -> tuple[Contents | None, list[Finding]]:
+    """What the archive holds, or None when it is not safe to go on, and what is wrong with it.
+
+    The archive stays open until the stack is left.
+    """
     found: list[Finding] = []
     if path.suffix != ".fmu":
         found.append(EXTENSION.at("file name", path.suffix or "no extension", ".fmu"))
     try:
-        with zipfile.ZipFile(path) as archive:
-            entries = archive.infolist()
-            found += _sizes(entries)
-            if not found_errors(found):
-                found += [finding for entry in entries for finding in _entry(entry)]
-                found += _together(entries)
-            if not found_errors(found):
-                found += _readable(archive, entries)
+        archive = stack.enter_context(zipfile.ZipFile(path))
+        entries = {entry: _name(entry) for entry in archive.infolist()}
+        for judge in (_sizes, _each, _together):
+            found += judge(entries)
+            if _hinders(found):
+                return None, found
+        found += _readable(archive, entries)
     except (zipfile.BadZipFile, OSError, ValueError, NotImplementedError, EOFError) as problem:
         found.append(READABLE.at("archive", problem, "a ZIP archive"))
-    if found_errors(found):
+    if _hinders(found):
         return None, found
     contents = Contents(
-        path=path,
-        files=tuple(entry.filename for entry in entries if not entry.is_dir()),
-        folders=frozenset(folder for entry in entries for folder in _folders(entry.filename)),
+        archive=archive,
+        files={name: entry for entry, name in entries.items() if not name.endswith("/")},
+        folders=frozenset(folder for name in entries.values() for folder in _folders(name)),
     )
     if DESCRIPTION not in contents.files:
         deeper = [name for name in contents.files if name.casefold().split("/")[-1] == DESCRIPTION.casefold()]
@@ -91,37 +106,55 @@ def open_archive(path: Path) -> tuple[Contents | None, list[Finding]]:
     return contents, found
 
 
-def found_errors(found: list[Finding]) -> bool:
-    """Whether any of them is an error."""
-    return any(finding.severity == "error" for finding in found)
+#: Entries with their names.
+Entries = Mapping[zipfile.ZipInfo, str]
 
 
-def _sizes(entries: list[zipfile.ZipInfo]) -> Iterator[Finding]:
+def _name(entry: zipfile.ZipInfo) -> str:
+    """The name with forward slashes. orig_filename: zipfile cuts names at NUL and, on Windows, turns backslashes."""
+    return entry.orig_filename.replace("\\", "/")
+
+
+def _hinders(found: list[Finding]) -> bool:
+    """Whether any of them makes it unsafe or impossible to read on."""
+    return any(finding.severity is Severity.ERROR and finding.rule not in READABLE_STILL for finding in found)
+
+
+def _sizes(entries: Entries) -> Iterator[Finding]:
     if len(entries) > MAX_ENTRIES:
         yield SIZE.at("archive", f"{len(entries)} entries", f"at most {MAX_ENTRIES}")
     total = sum(entry.file_size for entry in entries)
     if total > MAX_TOTAL:
         yield SIZE.at("archive", f"{total} bytes when extracted", f"at most {MAX_TOTAL}")
-    for entry in entries:
-        limit = MAX_DESCRIPTION if entry.filename == DESCRIPTION else MAX_ENTRY
+    for entry, name in entries.items():
+        limit = MAX_DESCRIPTION if name == DESCRIPTION else MAX_ENTRY
         if entry.file_size > limit:
-            yield SIZE.at(printable(entry.filename), f"{entry.file_size} bytes", f"at most {limit}")
+            yield SIZE.at(printable(name), f"{entry.file_size} bytes", f"at most {limit}")
         elif entry.file_size > max(RATIO_FROM, MAX_RATIO * entry.compress_size):
             value = f"{entry.file_size} bytes out of {entry.compress_size}"
-            yield SIZE.at(printable(entry.filename), value, f"at most {MAX_RATIO} to one")
+            yield SIZE.at(printable(name), value, f"at most {MAX_RATIO} to one")
 
 
-def _entry(entry: zipfile.ZipInfo) -> Iterator[Finding]:
-    # orig_filename: zipfile cuts names at NUL and, on Windows, turns backslashes.
-    name = entry.orig_filename
-    where = printable(name)
+def _each(entries: Entries) -> Iterator[Finding]:
+    for entry, name in entries.items():
+        yield from _entry(entry, name)
+
+
+def _entry(entry: zipfile.ZipInfo, name: str) -> Iterator[Finding]:
+    where = printable(name) or "an entry without a name"
     parts = name.removesuffix("/").split("/")
-    if "\\" in name:
-        yield BACKSLASH.at(where, name, "forward slashes")
+    if "\\" in entry.orig_filename:
+        yield BACKSLASH.at(where, entry.orig_filename, "forward slashes")
     if not name.isascii() or not name.isprintable():
         yield ASCII.at(where, ascii(name), "printable ASCII")
     if name.startswith("/") or name[1:2] == ":" or any(part in ("", ".", "..") for part in parts):
-        yield PATH.at(where, name, "a relative name without `..`, `.` and empty parts")
+        yield PATH.at(where, name or "an empty name", "a relative name without `..`, `.` and empty parts")
+    elif not name.isprintable():
+        yield PATH.at(where, ascii(name), "a name without control characters")
+    longest = max(_bytes(part) for part in parts)
+    if longest > MAX_PART or _bytes(name) > MAX_NAME:
+        value = f"{longest} bytes in one part, {_bytes(name)} in all"
+        yield LENGTH.at(where, value, f"at most {MAX_PART} and {MAX_NAME} bytes")
     if stat.S_ISLNK(entry.external_attr >> 16):
         yield LINK.at(where, "a symbolic link", "a file")
     if entry.flag_bits & 1:
@@ -130,12 +163,12 @@ def _entry(entry: zipfile.ZipInfo) -> Iterator[Finding]:
         yield METHOD.at(where, f"compression method {entry.compress_type}", "0 (stored) or 8 (deflated)")
 
 
-def _together(entries: list[zipfile.ZipInfo]) -> Iterator[Finding]:
-    for name, times in Counter(entry.filename for entry in entries).items():
+def _together(entries: Entries) -> Iterator[Finding]:
+    for name, times in Counter(entries.values()).items():
         if times > 1:
             yield DUPLICATE.at(printable(name), f"{times} entries", "one")
-    files = {entry.filename for entry in entries if not entry.is_dir()}
-    folders = {folder for entry in entries for folder in _folders(entry.filename)}
+    files = {name for name in entries.values() if not name.endswith("/")}
+    folders = {folder for name in entries.values() for folder in _folders(name)}
     for name in sorted(files & folders):
         yield CASE.at(printable(name), "a file and a folder", "one of them")
     spelt: dict[str, str] = {}
@@ -145,14 +178,19 @@ def _together(entries: list[zipfile.ZipInfo]) -> Iterator[Finding]:
             yield CASE.at(printable(name), f"also {printable(other)}", "names that differ by more than case")
 
 
-def _readable(archive: zipfile.ZipFile, entries: list[zipfile.ZipInfo]) -> Iterator[Finding]:
-    for entry in entries:
+def _readable(archive: zipfile.ZipFile, entries: Entries) -> Iterator[Finding]:
+    for entry, name in entries.items():
         try:
             with archive.open(entry) as file:
                 while file.read(1 << 20):
                     pass
         except (zipfile.BadZipFile, zlib.error, OSError, EOFError, ValueError, RuntimeError) as problem:
-            yield READABLE.at(printable(entry.filename), problem or type(problem).__name__, "an entry that can be read")
+            yield READABLE.at(printable(name), problem or type(problem).__name__, "an entry that can be read")
+
+
+def _bytes(name: str) -> int:
+    """The length as a file system counts."""
+    return len(name.encode())
 
 
 def _folders(name: str) -> Iterator[str]:

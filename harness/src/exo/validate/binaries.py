@@ -8,7 +8,7 @@ from typing import Any
 
 from exo.validate import child
 from exo.validate.archive import Contents
-from exo.validate.description import Description
+from exo.validate.description import Description, listed
 from exo.validate.rule import Finding, error, warning
 
 PLATFORM = warning("binary-platform", "folders in binaries/ are the standard's platforms or architecture-system pairs")
@@ -68,8 +68,8 @@ def findings(
 ) -> Iterator[Finding]:
     """All of this module's rules on the archive that lies extracted in `folder`."""
     slave = description.first("CoSimulation")
-    identifier = "" if slave is None else slave.get("modelIdentifier", "")
-    there = sorted(name.split("/")[1] for name in contents.folders if re.fullmatch(r"binaries/[^/]+", name))
+    # Some exporters write a folder for each platform and leave those empty that they were not asked for.
+    there = sorted({name.split("/")[1] for name in contents.files if re.match(r"binaries/[^/]+/", name)})
     for wanted in platforms:
         if wanted not in there:
             yield WANTED.at(f"binaries/{wanted}", f"only {', '.join(there) or 'none'}", wanted)
@@ -81,18 +81,19 @@ def findings(
         if platform is None:
             yield PLATFORM.at(f"binaries/{name}", name, f"one of {', '.join(PLATFORMS)}")
             continue
-        library = f"binaries/{name}/{identifier}{platform.extension}"
+        # A name that is no C identifier, as ../../evil, leads to no file of this folder.
+        library = f"binaries/{name}/{description.identifier or '<modelIdentifier>'}{platform.extension}"
         if library in contents.files:
             yield from _library(library, folder, platform, max_glibc)
         else:
             others = [PurePosixPath(file).name for file in contents.files if file.startswith(f"binaries/{name}/")]
-            yield NAME.at(f"binaries/{name}", ", ".join(others) or "empty", library)
+            yield NAME.at(f"binaries/{name}", listed(others), library)
 
 
 def _library(library: str, folder: Path, platform: Platform, max_glibc: str | None) -> Iterator[Finding]:
     path = folder.joinpath(*PurePosixPath(library).parts)
     answer = child.run({"task": "inspect", "library": str(path), "machine": platform.machine})
-    (facts,) = answer.facts("library") or [{}]
+    facts: dict[str, Any] = next(iter(answer.facts("library")), {})
     if answer.ended or facts.get("format") != platform.format or facts.get("machine") != platform.machine:
         value = answer.ended or f"{facts.get('format')} for {facts.get('machine')}"
         yield FORMAT.at(library, value, f"{platform.format} for {platform.machine}")

@@ -1,6 +1,5 @@
 """The description's head: names, capabilities, default experiment, log categories."""
 
-import re
 from collections import Counter
 from collections.abc import Iterator
 from math import isfinite
@@ -32,9 +31,8 @@ def findings(description: Description) -> Iterator[Finding]:
         yield COSIMULATION.at(place(root, "fmiModelDescription"), only, "CoSimulation; model exchange is not checked")
     else:
         where = place(slave, "CoSimulation")
-        identifier = slave.get("modelIdentifier", "")
-        if not re.fullmatch(r"[A-Za-z_][A-Za-z0-9_]*", identifier):
-            yield IDENTIFIER.at(where, f"modelIdentifier {identifier!r}", "a C identifier")
+        if description.identifier is None:
+            yield IDENTIFIER.at(where, f"modelIdentifier {slave.get('modelIdentifier')!r}", "a C identifier")
         if slave.get("canSerializeFMUstate") in TRUE and slave.get("canGetAndSetFMUstate") not in TRUE:
             yield STATE.at(where, "canSerializeFMUstate without canGetAndSetFMUstate", "both")
         if slave.get("canNotUseMemoryManagementFunctions") not in TRUE:

@@ -30,8 +30,8 @@ def findings(contents: Contents, license_name: str | None) -> Iterator[Finding]:
         top, *rest = name.split("/")
         if top == "extra" and (len(rest) < 2 or "." not in rest[0]):
             yield EXTRA.at(name, rest[0], "extra/<reverse domain>/, as in extra/org.example/")
-    if "model.png" in contents.files and not contents.read("model.png").startswith(PNG):
-        yield PICTURE.at("model.png", contents.read("model.png")[:8], "the signature of PNG")
+    if "model.png" in contents.files and (signature := contents.read("model.png")[: len(PNG)]) != PNG:
+        yield PICTURE.at("model.png", signature, "the signature of PNG")
     texts = [name for name in contents.files if name.startswith("documentation/licenses/")]
     entry = any(name in ("documentation/licenses/license.txt", "documentation/licenses/license.html") for name in texts)
     if texts and not entry:

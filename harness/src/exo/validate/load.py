@@ -1,7 +1,9 @@
 """One instance, run in a process of its own: does the library keep what the description says?"""
 
+import re
 import sys
 from collections.abc import Iterator
+from itertools import chain
 from math import isfinite
 from pathlib import Path, PurePosixPath
 from platform import machine
@@ -10,16 +12,17 @@ from typing import Any
 from exo.validate import child
 from exo.validate.binaries import PLATFORMS
 from exo.validate.child import Answer
-from exo.validate.description import Description, Variable, integers, number
-from exo.validate.rule import Finding, error, warning
+from exo.validate.description import Description, Variable, integers, listed, number
+from exo.validate.rule import Finding, error, printable, warning
 
+LIBRARY = error("load-library", "the system accepts the library, provided that it has all that the library needs")
 CRASH = error("load-crash", "loading, one step and freeing neither end the process nor hang")
 VERSION = error("load-version", "fmi2GetVersion says 2.0 and fmi2GetTypesPlatform says default")
 INSTANTIATE = error("load-instantiate", "fmi2Instantiate accepts the guid of the description")
 GUID = warning("load-guid", "fmi2Instantiate refuses another guid")
 STATUS = error("load-status", "a plain run returns fmi2OK from every call")
 READ = error("load-read", "every variable can be read after initialization")
-START = error("load-start", "start values in the library are those of the description")
+START = error("load-start", "start values in the library are those of the description; of locals, constants only")
 BOUNDS = error("load-bounds", "values after initialization and after a step are finite and within min and max")
 STREAMS = warning("load-streams", "nothing is written to the standard streams")
 
@@ -35,19 +38,33 @@ def host_platforms() -> tuple[str, ...]:
 
 def library(description: Description, folder: Path) -> Path | None:
     """The library that can be loaded here, None when the archive has none for this machine."""
-    slave = description.first("CoSimulation")
     for name in host_platforms():
-        if slave is not None and name in PLATFORMS:
-            path = folder / "binaries" / name / f"{slave.get('modelIdentifier')}{PLATFORMS[name].extension}"
+        if description.identifier is not None and name in PLATFORMS:
+            path = folder / "binaries" / name / f"{description.identifier}{PLATFORMS[name].extension}"
             if path.is_file():
                 return path
     return None
 
 
-def findings(description: Description, folder: Path, path: Path) -> Iterator[Finding]:
-    """All of this module's rules."""
+#: What loaders say of a library that is not there, or not new enough: glibc, glibc, musl, macOS.
+MISSING = (
+    re.compile(r"([^\s:]+): cannot open shared object file"),
+    re.compile(r"version [`'\"]?([^`'\"\s]+)['\"]? not found"),
+    re.compile(r"Error loading shared library ([^\s:]+): No such file"),
+    re.compile(r"Library not loaded: (\S+)"),
+)
+
+
+def missing(refusal: str) -> str | None:
+    """What this machine lacks, by the loader's sentence; None when the library itself is at fault."""
+    return next((found[1] for sentence in MISSING if (found := sentence.search(refusal))), None)
+
+
+def findings(description: Description, folder: Path, path: Path, skipped: list[str]) -> Iterator[Finding]:
+    """All of this module's rules; adds to `skipped` when this machine cannot judge."""
     variables = {v.index: v for v in description.variables if v.kind and _reference(v) is not None}
-    (folder / "resources").mkdir(exist_ok=True)
+    if not (folder / "resources").exists():  # it may be a file
+        (folder / "resources").mkdir()
     experiment = description.first("DefaultExperiment")
     times = {} if experiment is None else {key: number(experiment.get(key)) for key in ("startTime", "stepSize")}
     step = times.get("stepSize")
@@ -58,17 +75,22 @@ def findings(description: Description, folder: Path, path: Path) -> Iterator[Fin
         "resources": (folder / "resources").resolve().as_uri(),
         "start": times.get("startTime") or 0.0,
         "step": step if step is not None and 0.0 < step < 1e6 else 1e-3,
-        "exact": [_task(v) for v in variables.values() if v.has_start and v.type.get("start") is not None],
+        "exact": [_task(v) for v in variables.values() if _has_told_start(v)],
         "all": [_task(v) for v in variables.values()],
     }
     answer = child.run(task)
     where = f"binaries/{PurePosixPath(path.relative_to(folder / 'binaries').as_posix())}"
+    for refusal in answer.facts("refused"):
+        if lacking := missing(refusal):
+            skipped.append(f"loading: {where} needs {printable(lacking)}, which this machine lacks")
+        else:
+            yield LIBRARY.at(where, refusal.replace(str(path), path.name), "a library that can be loaded")
     yield from _calls(answer, where)
-    for index, value in answer.facts("exact"):
+    for index, value in chain.from_iterable(answer.facts("exact")):
         yield from _start(variables[index], value)
     read = {v.index: v for v in variables.values()}
     for moment in ("initialized", "stepped"):
-        for index, value in answer.facts(moment):
+        for index, value in chain.from_iterable(answer.facts(moment)):
             yield from _value(description, read, index, value, moment)
 
 
@@ -124,10 +146,20 @@ def _value(
         items = description.items(variable) if variable.kind == "Enumeration" else [value]
         if isfinite(value) and not outside and value in items:
             return
-        expected = f"an item of {items}" if value not in items else f"a finite value from {low} to {high}"
+        expected = f"one of {listed(items)}" if value not in items else f"a finite value from {low} to {high}"
         found = BOUNDS.at(variable.where, f"{value!r} when {moment}", expected)
     del variables[index]
     yield found
+
+
+def _has_told_start(variable: Variable) -> bool:
+    """Whether the library has to show the start value before initialization ends.
+
+    An importer does not set a local variable, so the FMU may compute it as early as it likes, or not at all. A constant
+    never changes.
+    """
+    told = variable.causality != "local" or variable.variability == "constant"
+    return told and variable.has_start and variable.type.get("start") is not None
 
 
 def _task(variable: Variable) -> tuple[int, str, int]:

@@ -6,6 +6,7 @@ is the FMU, not a wrapper.
 
 import ctypes
 import json
+import re
 import sys
 from collections.abc import Callable
 from ctypes import CFUNCTYPE, Structure, byref, c_char_p, c_double, c_int, c_size_t, c_uint, c_void_p
@@ -14,6 +15,8 @@ from typing import Any
 
 STATUS = ("OK", "Warning", "Discard", "Error", "Fatal", "Pending")
 VALUES: dict[str, Any] = {"Real": c_double, "Integer": c_int, "Boolean": c_int, "String": c_char_p}
+#: Values of variables in one fact. Those that were read before a crash are lost.
+TOLD_AT_ONCE = 1000
 #: A guid that no FMU has.
 OTHER_GUID = b"{00000000-0000-0000-0000-00000000e0e0}"
 
@@ -37,23 +40,28 @@ class Callbacks(Structure):
 
 
 class Slave:
-    """The functions of one library. Each call is told before it is made."""
+    """The functions of one library. A call is told before it is made, unless the last one was of the same function."""
 
-    def __init__(self, library: str, tell: Tell) -> None:
+    def __init__(self, library: ctypes.CDLL, tell: Tell) -> None:
         self.tell = tell
-        self.library = ctypes.CDLL(library)
+        self.library = library
+        self.last_call = ""
+        self.statuses: set[tuple[str, int]] = set()
         libc = ctypes.CDLL("msvcrt" if sys.platform == "win32" else None)
         libc.calloc.restype, libc.calloc.argtypes = c_void_p, (c_size_t, c_size_t)
         libc.free.restype, libc.free.argtypes = None, (c_void_p,)
         self.callbacks = Callbacks(LOGGER(lambda *_: None), ALLOCATE(libc.calloc), FREE(libc.free), FINISHED(), None)
 
     def call(self, name: str, *arguments: Any, returns: Any = c_int) -> Any:
-        """Calls a function; a status that is not OK is a fact."""
-        self.tell({"call": name})
+        """Calls a function; a status that is not OK is a fact when it comes for the first time."""
+        if name != self.last_call:
+            self.tell({"call": name})
+            self.last_call = name
         function = getattr(self.library, name)
         function.restype = returns
         result = function(*arguments)
-        if returns is c_int and result != 0:
+        if returns is c_int and result != 0 and (name, result) not in self.statuses:
+            self.statuses.add((name, result))
             self.tell({"status": [name, STATUS[result] if 0 <= result < len(STATUS) else str(result)]})
         return result
 
@@ -80,10 +88,21 @@ class Slave:
             return None
         return (value.value or b"").decode("utf-8", "replace") if kind == "String" else value.value
 
+    def read_all(self, component: c_void_p, fact: str, variables: list[tuple[int, str, int]]) -> None:
+        """Reads variables one by one and tells index and value of many at a time: writing takes longer than reading."""
+        for first in range(0, len(variables), TOLD_AT_ONCE):
+            part = variables[first : first + TOLD_AT_ONCE]
+            self.tell({fact: [[index, self.read(component, kind, reference)] for index, kind, reference in part]})
+
 
 def load(task: dict[str, Any], tell: Tell) -> None:
     """Instantiates, initialises, reads, steps, reads again and frees."""
-    slave = Slave(task["library"], tell)
+    try:
+        library = ctypes.CDLL(task["library"])
+    except OSError as problem:
+        tell({"refused": str(problem)})
+        return
+    slave = Slave(library, tell)
     for name, fact in (("fmi2GetVersion", "version"), ("fmi2GetTypesPlatform", "types")):
         tell({fact: (slave.call(name, returns=c_char_p) or b"").decode("utf-8", "replace")})
     component = slave.instantiate(task["guid"].encode(), task["resources"])
@@ -94,14 +113,11 @@ def load(task: dict[str, Any], tell: Tell) -> None:
     none = c_double(0.0)
     slave.call("fmi2SetupExperiment", component, c_int(0), none, start, c_int(0), none)
     slave.call("fmi2EnterInitializationMode", component)
-    for index, kind, reference in task["exact"]:
-        tell({"exact": [index, slave.read(component, kind, reference)]})
+    slave.read_all(component, "exact", task["exact"])
     slave.call("fmi2ExitInitializationMode", component)
-    for index, kind, reference in task["all"]:
-        tell({"initialized": [index, slave.read(component, kind, reference)]})
+    slave.read_all(component, "initialized", task["all"])
     slave.call("fmi2DoStep", component, start, step, c_int(1))
-    for index, kind, reference in task["all"]:
-        tell({"stepped": [index, slave.read(component, kind, reference)]})
+    slave.read_all(component, "stepped", task["all"])
     slave.call("fmi2Terminate", component)
     slave.call("fmi2FreeInstance", component, returns=None)
     other = slave.instantiate(OTHER_GUID, task["resources"])
@@ -134,8 +150,8 @@ def inspect(task: dict[str, Any], tell: Tell) -> None:
         versions = [
             auxiliary.name for need in library.symbols_version_requirement for auxiliary in need.get_auxiliary_symbols()
         ]
-        numbers = [str(name).removeprefix("GLIBC_") for name in versions if str(name).startswith("GLIBC_")]
-        facts["glibc"] = [number for number in numbers if number.replace(".", "").isdigit()]
+        numbers = [re.fullmatch(r"GLIBC_([0-9]{1,9}(?:\.[0-9]{1,9})*)", str(name)) for name in versions]
+        facts["glibc"] = [number[1] for number in numbers if number]
     tell({"library": facts})
 
 
@@ -155,8 +171,16 @@ def exported(library: Any) -> list[str]:
         found = library.get_export()
         return [] if found is None else [str(entry.name) for entry in found.entries]
     if isinstance(library, lief.MachO.Binary):
-        return [str(symbol.name).removeprefix("_") for symbol in library.exported_symbols]
+        # The loader reads the export trie; a file without one exports by its symbol table, as old linkers wrote it.
+        symbols = library.exported_symbols or [symbol for symbol in library.symbols if is_public(symbol.raw_type)]
+        return [str(symbol.name).removeprefix("_") for symbol in symbols]
     return [str(symbol.name) for symbol in library.exported_symbols]
+
+
+def is_public(raw_type: int) -> bool:
+    """Whether a Mach-O symbol's n_type says external, defined, and neither private nor of the debugger."""
+    stab, private, kind, external = 0xE0, 0x10, 0x0E, 0x01
+    return raw_type & external != 0 and raw_type & (stab | private) == 0 and raw_type & kind != 0
 
 
 def is_shared(library: Any) -> bool:
@@ -194,6 +218,7 @@ def main() -> None:
             file.flush()
 
         {"load": load, "inspect": inspect}[task["task"]](task, tell)
+        tell({"done": True})
 
 
 if __name__ == "__main__":

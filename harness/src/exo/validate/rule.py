@@ -39,7 +39,7 @@ class Rule:
 
     def at(self, where: str, value: object, expected: str) -> Finding:
         """The finding that this rule is broken."""
-        return Finding(self.id, self.severity, where, printable(str(value)), expected)
+        return Finding(self.id, self.severity, printable(where), printable(str(value)), printable(expected))
 
 
 #: All rules by id, in the order of their modules.
@@ -58,7 +58,9 @@ def warning(rule_id: str, text: str) -> Rule:
 
 def printable(text: str, limit: int = 300) -> str:
     """`text` without control characters (an archive may carry terminal codes in its names), shortened."""
-    safe = "".join(c if c.isprintable() else c.encode("unicode_escape").decode("ascii") for c in text)
+    safe = text[: limit + 1]
+    if not safe.isprintable():
+        safe = "".join(c if c.isprintable() else c.encode("unicode_escape").decode("ascii") for c in safe)
     return safe if len(safe) <= limit else f"{safe[:limit]}…"
 
 

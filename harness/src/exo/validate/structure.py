@@ -57,7 +57,8 @@ def _unknown(description: Description, section: str, unknown: etree._Element) ->
     variables = description.variables
     index = unknown.get("index", "")
     where = place(unknown, f"{section} index {index}")
-    variable = _at(variables, index)
+    positions = integers(index) or []
+    variable = _at(variables, positions[0]) if len(positions) == 1 else None
     if variable is None:
         yield INDEX.at(where, f"index {index}", f"1 to {len(variables)}")
     elif section == "Outputs" and variable.causality != "output":
@@ -67,7 +68,7 @@ def _unknown(description: Description, section: str, unknown: etree._Element) ->
         yield INITIAL_UNKNOWN.at(where, value, "initial calculated or approx")
     dependencies = integers(unknown.get("dependencies"))
     for one in dependencies or []:
-        known = _at(variables, str(one))
+        known = _at(variables, one)
         if known is None:
             yield INDEX.at(where, f"dependency {one}", f"1 to {len(variables)}")
         elif not _is_known(description, section, known):
@@ -102,12 +103,8 @@ def _is_known(description: Description, section: str, variable: Variable) -> boo
         return True
     if section == "InitialUnknowns":
         return variable.initial == "exact"
-    states = {other.type.get("derivative") for other in description.variables}
-    return str(variable.index) in states
+    return variable.index in description.states
 
 
-def _at(variables: tuple[Variable, ...], index: str) -> Variable | None:
-    found = integers(index)
-    if found is None or len(found) != 1 or not 1 <= found[0] <= len(variables):
-        return None
-    return variables[found[0] - 1]
+def _at(variables: tuple[Variable, ...], index: int) -> Variable | None:
+    return variables[index - 1] if 1 <= index <= len(variables) else None

@@ -33,17 +33,17 @@ def findings(description: Description) -> Iterator[Finding]:
     for name, times in Counter(defined).items():
         if times > 1 or not name:
             yield NAMES.at(f"{DESCRIPTION} UnitDefinitions", f"{name!r} {times} times", "each name once")
+    known = frozenset(defined)
     used = {variable.type.get("unit", "") for variable in description.variables}
     for variable in description.variables:
         if variable.kind == "Real" and "unit" not in variable.type:
             yield MISSING.at(variable.where, "Real without unit", "a unit, or 1")
-    for name, element in description.types.items():
-        real = element.find("Real")
-        unit_name = None if real is None else real.get("unit")
+    for name, declared in description.types.items():
+        unit_name = declared.kinds.get("Real", {}).get("unit")
         if unit_name is not None:
             used.add(unit_name)
-            if unit_name not in defined:
-                yield UNDEFINED.at(place(element, f"type {name}"), unit_name, "a unit of UnitDefinitions")
+            if unit_name not in known:
+                yield UNDEFINED.at(place(declared.element, f"type {name}"), unit_name, "a unit of UnitDefinitions")
     for unit in units:
         name = unit.get("name", "")
         where = place(unit, f"unit {name}")

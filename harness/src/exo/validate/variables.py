@@ -3,9 +3,10 @@
 import re
 from collections import Counter, defaultdict
 from collections.abc import Iterator
+from itertools import count
 from math import isfinite, isnan
 
-from exo.validate.description import Description, Variable, number, place
+from exo.validate.description import Description, Variable, listed, number, place
 from exo.validate.rule import Finding, error, warning
 
 CASE = warning("variable-case", "names stay unique when case is folded")
@@ -15,7 +16,9 @@ DESCRIBED = warning("variable-description", "every variable has a description")
 EXPLICIT = error("variable-variability", "all kinds but Real give their variability: the default is continuous")
 INITIAL = error("variable-input-initial", "inputs and the independent variable have no attribute initial")
 TIME = warning("variable-independent", "there is no independent variable: it is legal, but importers log errors for it")
-MULTIPLE = error("variable-multiple-set", "canHandleMultipleSetPerTimeInstant stands at inputs only")
+MULTIPLE = error(
+    "variable-multiple-set", "canHandleMultipleSetPerTimeInstant stands at inputs only, and only with model exchange"
+)
 REFERENCE = error("variable-reference", "valueReference is an unsigned 32-bit number")
 ALIAS = error(
     "variable-alias",
@@ -40,9 +43,10 @@ ELEMENT = re.compile(r"(?P<array>.+)\[(?P<index>[0-9]{1,9})\](?P<rest>[^\[\]]*)"
 
 def findings(description: Description) -> Iterator[Finding]:
     """All of this module's rules."""
+    model_exchange = description.first("ModelExchange") is not None
     for variable in description.variables:
         yield from _names(variable)
-        yield from _attributes(variable)
+        yield from _attributes(variable, model_exchange=model_exchange)
         yield from _values(description, variable)
         yield from _type(description, variable)
     yield from _folded(description)
@@ -59,7 +63,7 @@ def _names(variable: Variable) -> Iterator[Finding]:
         yield DESCRIBED.at(variable.where, "no description", "a sentence")
 
 
-def _attributes(variable: Variable) -> Iterator[Finding]:
+def _attributes(variable: Variable, *, model_exchange: bool) -> Iterator[Finding]:
     own = variable.own
     if variable.kind not in ("Real", "") and "variability" not in own:
         yield EXPLICIT.at(
@@ -69,8 +73,11 @@ def _attributes(variable: Variable) -> Iterator[Finding]:
         yield INITIAL.at(variable.where, f"initial {own['initial']}", f"none for causality {variable.causality}")
     if variable.causality == "independent":
         yield TIME.at(variable.where, "causality independent", "no such variable")
-    if "canHandleMultipleSetPerTimeInstant" in own and variable.causality != "input":
-        yield MULTIPLE.at(variable.where, f"causality {variable.causality}", "input")
+    if "canHandleMultipleSetPerTimeInstant" in own:
+        if variable.causality != "input":
+            yield MULTIPLE.at(variable.where, f"causality {variable.causality}", "input")
+        elif not model_exchange:
+            yield MULTIPLE.at(variable.where, "there is no ModelExchange", "no canHandleMultipleSetPerTimeInstant")
     reference = own.get("valueReference", "")
     if not INTEGER.fullmatch(reference) or not 0 <= int(reference) < 1 << 32:
         yield REFERENCE.at(variable.where, f"valueReference {reference!r}", "0 to 4294967295")
@@ -102,7 +109,7 @@ def _values(description: Description, variable: Variable) -> Iterator[Finding]:
         if (low is not None and value < low) or (high is not None and value > high):
             yield START_RANGE.at(variable.where, f"start {start}", _range(low, high))
         if kind == "Enumeration" and int(value) not in description.items(variable):
-            yield START_ITEM.at(variable.where, f"start {start}", f"one of {description.items(variable)}")
+            yield START_ITEM.at(variable.where, f"start {start}", f"one of {listed(description.items(variable))}")
 
 
 def _range(low: float | None, high: float | None) -> str:
@@ -121,7 +128,7 @@ def _type(description: Description, variable: Variable) -> Iterator[Finding]:
     declared = description.types.get(name)
     if declared is None:
         yield TYPE.at(variable.where, f"declaredType {name}", "a SimpleType of this name")
-    elif declared.find(variable.kind) is None:
+    elif variable.kind not in declared.kinds:
         yield TYPE.at(variable.where, f"declaredType {name}", f"a SimpleType of kind {variable.kind}")
 
 
@@ -141,9 +148,9 @@ def _arrays(description: Description) -> Iterator[Finding]:
             arrays[match["array"], match["rest"]][int(match["index"])] = variable
     for (array, rest), elements in arrays.items():
         where = elements[min(elements)].where
-        missing = sorted(set(range(1, max(elements) + 1)[:10_000]) - set(elements))
-        if missing or 0 in elements:
-            wrong = "an element 0" if 0 in elements else f"no element {missing[0]}"
+        missing = next(index for index in count(1) if index not in elements)
+        if missing <= max(elements) or 0 in elements:
+            wrong = "an element 0" if 0 in elements else f"no element {missing}"
             yield ARRAY.at(where, f"{array}[…]{rest}: {wrong}", f"1 to {max(elements)}")
         kinds = sorted({f"{v.kind} {v.type.get('unit', '')}".strip() for v in elements.values()})
         if len(kinds) > 1:
@@ -183,9 +190,9 @@ def _types(description: Description) -> Iterator[Finding]:
             yield TYPE_NAME.at(where, name, "a name that no other type and no variable has")
         items = list(element.iterfind("Enumeration/Item"))
         for key in ("name", "value"):
-            for text, count in Counter(item.get(key, "") for item in items).items():
-                if count > 1:
-                    yield TYPE_ITEMS.at(where, f"{count} items with {key} {text}", "one")
+            for text, often in Counter(item.get(key, "") for item in items).items():
+                if often > 1:
+                    yield TYPE_ITEMS.at(where, f"{often} items with {key} {text}", "one")
         real = next((child for child in element if child.tag in ("Real", "Integer")), None)
         if real is not None:
             low, high = number(real.get("min")), number(real.get("max"))
