@@ -22,11 +22,7 @@ fn initialized(change: impl FnOnce(&mut TestbedController)) -> TestbedController
 
 /// Step number `k` of length `h` (s) from 0 on.
 fn step(controller: &mut TestbedController, k: u32, h: f64) {
-    let step = Step {
-        start_time: 0.0,
-        t: f64::from(k) * h,
-        h,
-    };
+    let step = Step::at(f64::from(k) * h, h);
     controller.step(step, &mut Log::silent()).expect("a step");
 }
 
@@ -309,14 +305,7 @@ fn a_force_beyond_arithmetic_fails_the_step_instead_of_reaching_the_robot() {
     let mut controller =
         initialized(|c| (c.parameters.law, c.parameters.K, c.inputs.tau_h) = (1, 1e300, 1e300));
     let failure = controller
-        .step(
-            Step {
-                start_time: 0.0,
-                t: 0.0,
-                h: 0.02,
-            },
-            &mut Log::silent(),
-        )
+        .step(Step::at(0.0, 0.02), &mut Log::silent())
         .expect_err("an overflow");
     assert!(
         failure.0.contains("is not finite") && failure.0.contains("tau_h = 1000"),

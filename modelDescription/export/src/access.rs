@@ -117,6 +117,14 @@ impl Value for String {
 /// # Errors
 /// A [`Refusal`] that names the first parameter outside of its row's bounds, its value and what was expected.
 pub fn check_parameters<M: Model>(model: &M) -> Result<(), Refusal> {
+    check(model, Causality::Parameter)
+}
+
+/// Checks every variable of a causality against its row, as Set does.
+///
+/// # Errors
+/// As for [`check_parameters`].
+pub(crate) fn check<M: Model>(model: &M, causality: Causality) -> Result<(), Refusal> {
     fn first<M, V: Value>(
         model: &M,
         at: &Place<M, V>,
@@ -126,19 +134,28 @@ pub fn check_parameters<M: Model>(model: &M) -> Result<(), Refusal> {
         objections.enumerate().find_map(|(i, o)| Some((i, o?)))
     }
     for row in M::DESCRIPTION.variables {
-        if row.causality != Causality::Parameter {
+        if row.causality != causality {
             continue;
         }
         let objection = match &row.access {
             Access::Real { at, .. } => first(model, at, row),
             Access::Integer { at, .. } | Access::Enumeration { at, .. } => first(model, at, row),
-            Access::Boolean { .. } | Access::String { .. } => None,
+            Access::Boolean { at } => {
+                (0..row.len).find_map(|i| Some((i, no_boolean(at.word(model, i))?)))
+            }
+            Access::String { .. } => None,
         };
         if let Some((i, objection)) = objection {
             return Err(Refusal(format!("{} {objection}", row.element_name(i))));
         }
     }
     Ok(())
+}
+
+/// What is wrong with a word that stands for a Boolean: only 0 and 1 do. 0x100 may be a word that nobody wrote, and
+/// `engage` must not be on then. The C library says the same.
+pub(crate) fn no_boolean(word: i32) -> Option<String> {
+    (word != 0 && word != 1).then(|| format!("= {word}, expected 0 or 1"))
 }
 
 /// Why what the model computes is refused.
@@ -224,7 +241,7 @@ impl<M: Model> Instance<M> {
     pub(crate) fn set<V: Value>(
         &mut self,
         references: &[ValueReference],
-        value: impl Fn(usize) -> Result<V, &'static str>,
+        value: impl Fn(usize) -> Result<V, String>,
     ) -> Outcome {
         let phase = self.now.phase;
         let mut tuned = false;
@@ -240,7 +257,7 @@ impl<M: Model> Instance<M> {
             }
             let objection = match (not_settable(variable, phase), value(i)) {
                 (Some(reason), _) => Some(reason.to_owned()),
-                (None, Err(reason)) => Some(reason.to_owned()),
+                (None, Err(reason)) => Some(reason),
                 (None, Ok(value)) => value.objection(variable),
             };
             if let Some(objection) = objection {

@@ -16,7 +16,7 @@
 //! assert_eq!(human.outputs.f_h, [0.0; 3]); // at the intended position, the plan not begun
 //!
 //! human.inputs.p[0] += 0.01; // where the handle is at the end of the step
-//! human.step(Step { start_time: 0.0, t: 0.0, h: 0.25 }, &mut Log::silent())?;
+//! human.step(Step::at(0.0, 0.25), &mut Log::silent())?;
 //! assert!((human.outputs.f_h[0] + 2.0).abs() < 1e-12 && human.outputs.f_h[2] == -3.0);
 //! # Ok::<(), export::Refusal>(())
 //! ```

@@ -57,6 +57,7 @@ fn a_step_of_too_many_periods_is_refused_before_anything_moves() {
         ("Testbed", "substep"),
         ("ArmController", "T"),
         ("ExoskeletonArm", "substep"),
+        ("ExoskeletonArms", "substep"),
     ] {
         let instance = Phase::StepComplete.enter(&Fmu::open(name));
         refused(&instance, "fmi2DoStep", &["at most", period], |i| {
