@@ -3,7 +3,7 @@
 
 use admittance::law::LAW;
 use declaration::{Access, Declare};
-use export::{Log, Model, Step};
+use export::{Clock, Log, Model, Step};
 use testbed_controller::TestbedController;
 
 fn controller(change: impl FnOnce(&mut TestbedController)) -> TestbedController {
@@ -451,4 +451,18 @@ fn limits_keep_the_nominal_and_say_so() {
     for controller in [free, slow, boxed, rated, held] {
         assert!(controller.outputs.tank >= 0.0 && controller.outputs.debt == 0);
     }
+}
+
+#[test]
+fn a_number_of_ticks_that_is_not_that_of_the_time_is_refused_by_name() {
+    let mut controller = initialized(|_| ());
+    let mut clock = Clock::at_start(0.0);
+    for k in 0..20 {
+        tick(&mut controller, k);
+        clock.advance(&Step::at(0.0, 0.002));
+    }
+    assert_eq!(controller.fits(&clock), Ok(()));
+    let refusal = controller.fits(&Clock::at_start(0.0)).unwrap_err();
+    let named = "number of ticks = 20, expected 0 periods of 0.002 s";
+    assert!(refusal.0.starts_with(named), "{refusal}");
 }
