@@ -141,7 +141,7 @@ pub(crate) fn check<M: Model>(model: &M, causality: Causality) -> Result<(), Ref
             Access::Real { at, .. } => first(model, at, row),
             Access::Integer { at, .. } | Access::Enumeration { at, .. } => first(model, at, row),
             Access::Boolean { at } => {
-                (0..row.len).find_map(|i| Some((i, no_boolean(at.word(model, i))?)))
+                (0..row.len).find_map(|i| Some((i, boolean(at.word(model, i)).err()?.to_string())))
             }
             Access::String { .. } => None,
         };
@@ -152,10 +152,35 @@ pub(crate) fn check<M: Model>(model: &M, causality: Causality) -> Result<(), Ref
     Ok(())
 }
 
-/// What is wrong with a word that stands for a Boolean: only 0 and 1 do. 0x100 may be a word that nobody wrote, and
-/// `engage` must not be on then. The C library says the same.
-pub(crate) fn no_boolean(word: i32) -> Option<String> {
-    (word != 0 && word != 1).then(|| format!("= {word}, expected 0 or 1"))
+/// What was given for a value and is none.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum NoValue {
+    /// A Boolean other than 0 and 1. 0x100 may be a word that nobody wrote, and `engage` must not be on then. The C library
+    /// says the same.
+    Word(i32),
+    /// A pointer that is null, or text in another encoding.
+    Text,
+}
+
+impl core::fmt::Display for NoValue {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        match self {
+            Self::Word(word) => write!(f, "= {word}, expected 0 or 1"),
+            Self::Text => f.write_str("is null or not UTF-8, expected a UTF-8 string"),
+        }
+    }
+}
+
+/// The Boolean that a word stands for.
+///
+/// # Errors
+/// It stands for none.
+pub(crate) fn boolean(word: i32) -> Result<bool, NoValue> {
+    match word {
+        0 => Ok(false),
+        1 => Ok(true),
+        _ => Err(NoValue::Word(word)),
+    }
 }
 
 /// Why what the model computes is refused.
@@ -241,7 +266,7 @@ impl<M: Model> Instance<M> {
     pub(crate) fn set<V: Value>(
         &mut self,
         references: &[ValueReference],
-        value: impl Fn(usize) -> Result<V, String>,
+        value: impl Fn(usize) -> Result<V, NoValue>,
     ) -> Outcome {
         let phase = self.now.phase;
         let mut tuned = false;
@@ -257,7 +282,7 @@ impl<M: Model> Instance<M> {
             }
             let objection = match (not_settable(variable, phase), value(i)) {
                 (Some(reason), _) => Some(reason.to_owned()),
-                (None, Err(reason)) => Some(reason),
+                (None, Err(none)) => Some(none.to_string()),
                 (None, Ok(value)) => value.objection(variable),
             };
             if let Some(objection) = objection {

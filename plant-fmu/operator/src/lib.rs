@@ -29,6 +29,8 @@
 //! | f_hand | k_h (p_intended − p(t − delay)) − b_h dp(t − delay), 0 from let_go on | N | [`hand::Hand::force`] |
 //!
 //! 1. [`initialize`](export::Model::initialize) shows the force at the start time, with the inputs as they are then.
+//!    p = 0 on all axes counts as not there yet, as in an importer that exchanges nothing during initialization: the hand
+//!    then takes hold at the first step. From the shoulder, where 0 is, it would pull with 50 N at k_h = 100 N/m.
 //! 2. [`step`](export::Model::step) from t to t + h shows the force at t + h. The inputs set before it count as those at
 //!    t + h: step the arm first, hand its `p` and `dp` over, then step the human.
 //!

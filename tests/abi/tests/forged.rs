@@ -8,7 +8,8 @@ use std::ptr::null_mut;
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::time::Duration;
 
-/// Where the header says how long the payload is, and its checksum (modelDescription/export/src/snapshot.rs).
+/// Where the header says the version of the format, how long the payload is, and its checksum (modelDescription/export/src/snapshot.rs).
+const VERSION: Range<usize> = 8..12;
 const LENGTH: Range<usize> = 54..62;
 const CHECKSUM: Range<usize> = 62..66;
 const HEADER: usize = 66;
@@ -124,6 +125,19 @@ fn a_state_with_times_that_no_steps_lead_to_is_refused_by_name() {
             &["before the first step"],
             |i| deserialize(i, &with_number(&i.bytes(), ELAPSED, 0.5), &mut null_mut()),
         );
+    }
+}
+
+#[test]
+fn a_state_of_an_earlier_build_is_refused_by_its_version() {
+    for fmu in Fmu::all() {
+        let instance = moved(&fmu);
+        let mut bytes = instance.bytes();
+        bytes[VERSION].copy_from_slice(&1_u32.to_le_bytes());
+        let parts = ["serialized state: expected format version 2, got 1"];
+        refused(&instance, "fmi2DeSerializeFMUstate", &parts, |i| {
+            deserialize(i, &bytes, &mut null_mut())
+        });
     }
 }
 
