@@ -23,7 +23,7 @@ const DEVIATIONS: [&str; 7] = [
      <code>fmi2Error</code>.",
     "<code>fmi2GetRealStatus(fmi2LastSuccessfulTime)</code> and <code>fmi2GetBooleanStatus(fmi2Terminated)</code> are answered at any \
      time after initialization.",
-    "A step may go past the stop time.",
+    "A step may go past the stop time: importers end a run by a rounding past it.",
 ];
 
 const STYLE: &str = include_str!("document.css");
@@ -142,7 +142,8 @@ fn stepping(interface: &Interface) -> Section {
             "The model is sampled: ticks are counted from the start time, one sample period apart. A step from t to t + h runs the \
              ticks in [t, t + h): the first step runs the tick at the start time. At a tick the inputs are latched and that tick's \
              outputs appear, readable when the step returns; between ticks they hold. Any h &gt; 0 is accepted; many small steps and \
-             one large step run the same ticks. The communication step size is the sample period: with it, each step runs one tick."
+             one large step run the same ticks. The communication step size above is the sample period: with it, each step runs one tick, \
+             whatever the time rounds: from start times up to 2e9 s, for 1e8 steps. Time is what the step sizes add up to."
         }
         Stepping::Exact => {
             "A step from t to t + h holds the inputs, divides h into equal substeps no longer than the largest substep, and ends exactly \

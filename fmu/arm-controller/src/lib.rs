@@ -11,7 +11,7 @@
 //! let mut controller = ArmController::default();
 //! controller.inputs.f_h = [0.0, 0.0, 4.0]; // upwards
 //! controller.initialize(0.0, &mut Log::silent())?;
-//! controller.step(Step { start_time: 0.0, t: 0.0, h: 0.001 }, &mut Log::silent())?;
+//! controller.step(Step::at(0.0, 0.001), &mut Log::silent())?;
 //! assert_eq!(controller.tick, 0);
 //! assert!(controller.outputs.f_a[2] > 0.0 && controller.outputs.f_a[0] == 0.0);
 //! assert!(controller.outputs.tau_a[1] > 0.0); // positive pitch lifts

@@ -4,7 +4,7 @@ use crate::ArmController;
 use admittance::encoder::{self, Age};
 use arm_law::arm_law::NotFinite;
 use arm_law::{ArmInputs, ArmLaw};
-use export::{Log, Model, Refusal, Step, Ticks};
+use export::{Clock, Log, Model, Refusal, Step, Ticks};
 
 impl Model for ArmController {
     fn initialize(&mut self, _start_time: f64, log: &mut Log<'_>) -> Result<(), Refusal> {
@@ -31,6 +31,10 @@ impl Model for ArmController {
 
     fn accepts(&self, step: &Step) -> Result<(), Refusal> {
         step.at_most("T", self.parameters.T)
+    }
+
+    fn fits(&self, clock: &Clock) -> Result<(), Refusal> {
+        self.ticks.check(clock, self.parameters.T)
     }
 
     fn step(&mut self, step: Step, log: &mut Log<'_>) -> Result<(), Refusal> {

@@ -56,11 +56,7 @@ impl Pair {
         self.k += 1;
         let fmu = &mut self.fmu;
         let inputs = fmu.inputs;
-        let step = Step {
-            start_time: 0.0,
-            t,
-            h: T,
-        };
+        let step = Step::at(t, T);
         assert!(fmu.step(step, &mut Log::silent()).is_ok());
         let (n, status) = counting::allocations(|| {
             exo_arm_tick(&mut *self.state, &inputs, &mut *self.outputs, null_mut())

@@ -10,7 +10,7 @@
 //! let mut controller = TestbedController::default();
 //! controller.inputs.tau_h = 4.0;
 //! controller.initialize(0.0, &mut Log::silent())?;
-//! controller.step(Step { start_time: 0.0, t: 0.0, h: 0.002 }, &mut Log::silent())?;
+//! controller.step(Step::at(0.0, 0.002), &mut Log::silent())?;
 //! assert_eq!(controller.tick, 0);
 //! assert!(controller.outputs.tau_a > 0.0); // towards where the nominal mass is being pushed
 //! # Ok::<(), export::Refusal>(())

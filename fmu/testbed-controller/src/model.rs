@@ -7,7 +7,7 @@ use admittance::Law;
 use admittance::encoder::{self, Age};
 use admittance::one_axis::{AxisInputs, NotFinite};
 use admittance::parameters::in_range;
-use export::{Log, Model, Refusal, Step, Ticks};
+use export::{Clock, Log, Model, Refusal, Step, Ticks};
 
 impl Model for TestbedController {
     fn initialize(&mut self, _start_time: f64, log: &mut Log<'_>) -> Result<(), Refusal> {
@@ -38,6 +38,10 @@ impl Model for TestbedController {
 
     fn accepts(&self, step: &Step) -> Result<(), Refusal> {
         step.at_most("T", self.parameters.T)
+    }
+
+    fn fits(&self, clock: &Clock) -> Result<(), Refusal> {
+        self.ticks.check(clock, self.parameters.T)
     }
 
     fn step(&mut self, step: Step, log: &mut Log<'_>) -> Result<(), Refusal> {

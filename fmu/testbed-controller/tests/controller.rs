@@ -3,7 +3,7 @@
 
 use admittance::law::LAW;
 use declaration::{Access, Declare};
-use export::{Log, Model, Step};
+use export::{Clock, Log, Model, Step};
 use testbed_controller::TestbedController;
 
 fn controller(change: impl FnOnce(&mut TestbedController)) -> TestbedController {
@@ -22,11 +22,7 @@ fn initialized(change: impl FnOnce(&mut TestbedController)) -> TestbedController
 
 /// Step number `k` of length `h` (s) from 0 on.
 fn step(controller: &mut TestbedController, k: u32, h: f64) {
-    let step = Step {
-        start_time: 0.0,
-        t: f64::from(k) * h,
-        h,
-    };
+    let step = Step::at(f64::from(k) * h, h);
     controller.step(step, &mut Log::silent()).expect("a step");
 }
 
@@ -320,14 +316,7 @@ fn a_force_beyond_arithmetic_fails_the_step_instead_of_reaching_the_robot() {
     let mut controller =
         initialized(|c| (c.parameters.law, c.parameters.K, c.inputs.tau_h) = (1, 1e300, 1e300));
     let failure = controller
-        .step(
-            Step {
-                start_time: 0.0,
-                t: 0.0,
-                h: 0.02,
-            },
-            &mut Log::silent(),
-        )
+        .step(Step::at(0.0, 0.02), &mut Log::silent())
         .expect_err("an overflow");
     assert!(
         failure.0.contains("is not finite") && failure.0.contains("tau_h = 1000"),
@@ -540,4 +529,18 @@ fn a_position_marked_invalid_gives_no_force_and_says_why() {
         c.outputs.encoder_fault,
         admittance::encoder::Fault::OverRange.number()
     );
+}
+
+#[test]
+fn a_number_of_ticks_that_is_not_that_of_the_time_is_refused_by_name() {
+    let mut controller = initialized(|_| ());
+    let mut clock = Clock::at_start(0.0);
+    for k in 0..20 {
+        tick(&mut controller, k);
+        clock.advance(&Step::at(0.0, 0.002));
+    }
+    assert_eq!(controller.fits(&clock), Ok(()));
+    let refusal = controller.fits(&Clock::at_start(0.0)).unwrap_err();
+    let named = "number of ticks = 20, expected 0 periods of 0.002 s";
+    assert!(refusal.0.starts_with(named), "{refusal}");
 }

@@ -117,6 +117,14 @@ impl Value for String {
 /// # Errors
 /// A [`Refusal`] that names the first parameter outside of its row's bounds, its value and what was expected.
 pub fn check_parameters<M: Model>(model: &M) -> Result<(), Refusal> {
+    check(model, Causality::Parameter)
+}
+
+/// Checks every variable of a causality against its row, as Set does.
+///
+/// # Errors
+/// As for [`check_parameters`].
+pub(crate) fn check<M: Model>(model: &M, causality: Causality) -> Result<(), Refusal> {
     fn first<M, V: Value>(
         model: &M,
         at: &Place<M, V>,
@@ -126,19 +134,53 @@ pub fn check_parameters<M: Model>(model: &M) -> Result<(), Refusal> {
         objections.enumerate().find_map(|(i, o)| Some((i, o?)))
     }
     for row in M::DESCRIPTION.variables {
-        if row.causality != Causality::Parameter {
+        if row.causality != causality {
             continue;
         }
         let objection = match &row.access {
             Access::Real { at, .. } => first(model, at, row),
             Access::Integer { at, .. } | Access::Enumeration { at, .. } => first(model, at, row),
-            Access::Boolean { .. } | Access::String { .. } => None,
+            Access::Boolean { at } => {
+                (0..row.len).find_map(|i| Some((i, boolean(at.word(model, i)).err()?.to_string())))
+            }
+            Access::String { .. } => None,
         };
         if let Some((i, objection)) = objection {
             return Err(Refusal(format!("{} {objection}", row.element_name(i))));
         }
     }
     Ok(())
+}
+
+/// What was given for a value and is none.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum NoValue {
+    /// A Boolean other than 0 and 1. 0x100 may be a word that nobody wrote, and `engage` must not be on then. The C library
+    /// says the same.
+    Word(i32),
+    /// A pointer that is null, or text in another encoding.
+    Text,
+}
+
+impl core::fmt::Display for NoValue {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        match self {
+            Self::Word(word) => write!(f, "= {word}, expected 0 or 1"),
+            Self::Text => f.write_str("is null or not UTF-8, expected a UTF-8 string"),
+        }
+    }
+}
+
+/// The Boolean that a word stands for.
+///
+/// # Errors
+/// It stands for none.
+pub(crate) fn boolean(word: i32) -> Result<bool, NoValue> {
+    match word {
+        0 => Ok(false),
+        1 => Ok(true),
+        _ => Err(NoValue::Word(word)),
+    }
 }
 
 /// Why what the model computes is refused.
@@ -224,7 +266,7 @@ impl<M: Model> Instance<M> {
     pub(crate) fn set<V: Value>(
         &mut self,
         references: &[ValueReference],
-        value: impl Fn(usize) -> Result<V, &'static str>,
+        value: impl Fn(usize) -> Result<V, NoValue>,
     ) -> Outcome {
         let phase = self.now.phase;
         let mut tuned = false;
@@ -240,7 +282,7 @@ impl<M: Model> Instance<M> {
             }
             let objection = match (not_settable(variable, phase), value(i)) {
                 (Some(reason), _) => Some(reason.to_owned()),
-                (None, Err(reason)) => Some(reason.to_owned()),
+                (None, Err(none)) => Some(none.to_string()),
                 (None, Ok(value)) => value.objection(variable),
             };
             if let Some(objection) = objection {

@@ -12,7 +12,7 @@ pub type ValueReference = c_uint;
 pub type Real = c_double;
 /// fmi2Integer
 pub type Integer = c_int;
-/// fmi2Boolean: 0 is false, everything else true.
+/// fmi2Boolean: 0 is false, 1 is true; fmi2SetBoolean refuses everything else.
 pub type Boolean = c_int;
 /// fmi2String: null-terminated UTF-8.
 pub type FmiString = *const c_char;

@@ -1,5 +1,6 @@
 //! One instance of a model: life cycle, steps, FMU state. Access to variables is in [`crate::access`].
 
+use crate::clock::Clock;
 use crate::failure::{Failure, Outcome};
 use crate::ffi::{Callbacks, LAST_SUCCESSFUL_TIME, StatusKind, TERMINATED};
 use crate::legality::Phase;
@@ -8,13 +9,8 @@ use crate::model::Model;
 use crate::outputs::Outputs;
 use crate::resource;
 use crate::snapshot::Snapshot;
-use crate::time::Step;
 use std::ffi::{CStr, CString};
 use std::path::PathBuf;
-
-/// A communication point may differ from the expected one by this share of the step: importers carry `i·h`, a running
-/// sum, or whole nanoseconds.
-const SAME_POINT: f64 = 1e-3;
 
 /// One instance.
 pub struct Instance<M: Model> {
@@ -41,8 +37,7 @@ impl<M: Model> Instance<M> {
     ) -> Self {
         let now = Snapshot {
             phase: Phase::Instantiated,
-            start_time: 0.0,
-            time: 0.0,
+            clock: Clock::default(),
             model: M::default(),
         };
         let mut instance = Self {
@@ -140,8 +135,7 @@ impl<M: Model> Instance<M> {
                 "tolerance = {tolerance}, expected a finite value, at least 0"
             ));
         }
-        self.now.start_time = start_time;
-        self.now.time = start_time;
+        self.now.clock = Clock::at_start(start_time);
         Ok(())
     }
 
@@ -156,7 +150,7 @@ impl<M: Model> Instance<M> {
     pub(crate) fn exit_initialization_mode(&mut self) -> Outcome {
         self.initialize()?;
         self.now.phase = Phase::StepComplete;
-        let start_time = self.now.start_time;
+        let start_time = self.now.clock.start_time();
         self.log().event(format_args!(
             "{} initialized at t = {start_time} s",
             M::DESCRIPTION.name
@@ -168,7 +162,7 @@ impl<M: Model> Instance<M> {
     pub(crate) fn initialize(&mut self) -> Outcome {
         if self.stale {
             let mut candidate = self.now.model.clone();
-            let start_time = self.now.start_time;
+            let start_time = self.now.clock.start_time();
             candidate
                 .initialize(start_time, &mut self.log())
                 .map_err(|refusal| refusal.0)?;
@@ -182,7 +176,7 @@ impl<M: Model> Instance<M> {
     /// fmi2Terminate
     pub(crate) fn terminate(&mut self) -> Outcome {
         self.now.phase = Phase::Terminated;
-        let time = self.now.time;
+        let time = self.now.clock.time();
         self.log().event(format_args!(
             "{} terminated at t = {time} s",
             M::DESCRIPTION.name
@@ -194,8 +188,7 @@ impl<M: Model> Instance<M> {
     pub(crate) fn reset(&mut self) -> Outcome {
         self.now = Snapshot {
             phase: Phase::Instantiated,
-            start_time: 0.0,
-            time: 0.0,
+            clock: Clock::default(),
             model: M::default(),
         };
         self.now.model.located(self.resources.as_deref());
@@ -205,29 +198,7 @@ impl<M: Model> Instance<M> {
 
     /// fmi2DoStep
     pub(crate) fn do_step(&mut self, t: f64, h: f64) -> Outcome {
-        if !(h.is_normal() && h > 0.0) {
-            return refused(format!(
-                "communicationStepSize = {h:?} s, expected a finite normal number above 0"
-            ));
-        }
-        let expected = self.now.time;
-        if !(t.is_finite()
-            && (t - expected).abs() <= SAME_POINT * h + 4.0 * f64::EPSILON * expected.abs())
-        {
-            return refused(format!(
-                "expected currentCommunicationPoint {expected} s, got {t} s"
-            ));
-        }
-        if t + h <= t || !(t + h).is_finite() {
-            return refused(format!(
-                "communicationStepSize = {h} s does not advance the time {t} s to a later finite time"
-            ));
-        }
-        let step = Step {
-            start_time: self.now.start_time,
-            t,
-            h,
-        };
+        let step = self.now.clock.step(t, h)?;
         self.now.model.accepts(&step).map_err(|refusal| refusal.0)?;
         let (model, mut log) = self.model_and_log();
         model
@@ -236,14 +207,14 @@ impl<M: Model> Instance<M> {
         self.outputs
             .check(&self.now.model)
             .map_err(Failure::Broken)?;
-        self.now.time = t + h;
+        self.now.clock.advance(&step);
         Ok(())
     }
 
     /// fmi2GetRealStatus
     pub(crate) fn real_status(&self, kind: StatusKind) -> Result<f64, Failure> {
         match kind {
-            LAST_SUCCESSFUL_TIME => Ok(self.now.time),
+            LAST_SUCCESSFUL_TIME => Ok(self.now.clock.time()),
             _ => Err(Failure::Refused(format!(
                 "status kind {kind} is not supported, expected fmi2LastSuccessfulTime (2)"
             ))),
@@ -288,8 +259,8 @@ pub(crate) fn instance_name(name: Option<&str>) -> CString {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Refusal;
     use crate::access::Value;
+    use crate::{Refusal, Step};
     use declaration::Variability::Continuous;
     use declaration::{Declare, Description, Experiment, Stepping, real, unit};
 

@@ -18,6 +18,7 @@
 //! | module | what | FMI 2.0.5 |
 //! |---|---|---|
 //! | [`model`] | what a model must offer | |
+//! | [`clock`] | the time of an instance: which step can follow, and the sum of the steps | 4.2.1 |
 //! | [`time`] | communication steps, ticks, substeps | 4.2.1 |
 //! | [`log`] | messages by category | 2.1.5 |
 //! | [`ffi`] | C types and callbacks | 2.1.2, 2.1.5 |
@@ -33,6 +34,7 @@
 //! | [`functions`] | the C functions, generic over the model | 2.1, 4.2 |
 
 pub mod access;
+pub mod clock;
 pub mod failure;
 pub mod ffi;
 pub mod functions;
@@ -50,6 +52,7 @@ pub mod snapshot;
 mod symbols;
 pub mod time;
 
+pub use clock::Clock;
 pub use log::Log;
 pub use model::{Model, Refusal};
 pub use time::{Step, Ticks};

@@ -1,6 +1,6 @@
 //! What a model must offer to be exported.
 
-use crate::{Log, Step};
+use crate::{Clock, Log, Step};
 use declaration::Declare;
 use serde::{Serialize, de::DeserializeOwned};
 use std::path::Path;
@@ -46,6 +46,16 @@ pub trait Model: Declare + Clone + Serialize + DeserializeOwned {
     /// A [`Refusal`]; the instance stays as it was.
     fn accepts(&self, step: &Step) -> Result<(), Refusal> {
         let _ = step;
+        Ok(())
+    }
+
+    /// Whether the state can be that of a run whose time is `clock`'s: asked of an initialized state that came as bytes. A model says no
+    /// to what would make a step hang or panic: a counter that is not that of the time, a place beyond a list's end.
+    ///
+    /// # Errors
+    /// A [`Refusal`] that names the value and what was expected; the bytes are then no state.
+    fn fits(&self, clock: &Clock) -> Result<(), Refusal> {
+        let _ = clock;
         Ok(())
     }
 

@@ -8,16 +8,20 @@
 //! | 50 | 4 | CRC-32 of the model's start state as bytes: changes with the layout of the state |
 //! | 54 | 8 | length of the payload, little-endian |
 //! | 62 | 4 | CRC-32 of the payload, little-endian |
-//! | 66 | … | payload: phase, times and the model, by serde and postcard (floats bit for bit) |
+//! | 66 | … | payload: phase, clock and the model, by serde and postcard (floats bit for bit) |
 
-use crate::access::check_parameters;
+use crate::access::check;
+use crate::clock::Clock;
 use crate::identity::{self, Identity};
 use crate::legality::Phase;
 use crate::model::Model;
+use crate::outputs::Outputs;
+use declaration::Causality;
 use serde::{Deserialize, Serialize};
 
 const MAGIC: &[u8; 8] = b"FMI2STAT";
-const VERSION: u32 = 1;
+/// 2: the clock has the sum of the steps.
+const VERSION: u32 = 2;
 const GUID: std::ops::Range<usize> = 12..12 + identity::GUID;
 const LAYOUT: usize = 50;
 const LENGTH: usize = 54;
@@ -30,10 +34,8 @@ const HEADER: usize = 66;
 pub struct Snapshot<M: Model> {
     /// Phase of the life cycle.
     pub(crate) phase: Phase,
-    /// Start time of the experiment (s).
-    pub(crate) start_time: f64,
-    /// Current communication point (s).
-    pub(crate) time: f64,
+    /// Start time, current communication point and the steps between them.
+    pub(crate) clock: Clock,
     /// The model with all parameters, inputs, outputs and states.
     pub(crate) model: M,
 }
@@ -121,13 +123,27 @@ impl<M: Model> Snapshot<M> {
         }
     }
 
-    /// With times and parameters as Set would accept them: bytes with a right checksum may still be forged.
+    /// With numbers that a run can lead to, as far as calls check them or a step depends on them to end: bytes with a right
+    /// checksum may still be forged.
     fn checked(self) -> Result<Self, String> {
-        if !(self.start_time.is_finite() && self.time.is_finite()) {
-            return Err("serialized state: a time that is not finite".into());
+        match self.objection() {
+            Ok(()) => Ok(self),
+            Err(reason) => Err(format!("serialized state: {reason}")),
         }
-        check_parameters(&self.model).map_err(|refusal| format!("serialized state: {refusal}"))?;
-        Ok(self)
+    }
+
+    fn objection(&self) -> Result<(), String> {
+        let initialized = !matches!(self.phase, Phase::Instantiated | Phase::InitializationMode);
+        self.clock.check(initialized)?;
+        for causality in [Causality::Parameter, Causality::Input] {
+            check(&self.model, causality).map_err(|refusal| refusal.0)?;
+        }
+        // What a failed step left behind may be anything, and what comes before an initialization is built anew by it.
+        if initialized && self.phase != Phase::Error {
+            self.model.fits(&self.clock).map_err(|refusal| refusal.0)?;
+            Outputs::new().check(&self.model)?;
+        }
+        Ok(())
     }
 }
 

@@ -1,10 +1,10 @@
 //! Communication steps and the ticks of a sampled model inside them.
 
-use crate::Refusal;
+use crate::{Clock, Refusal};
 use serde::{Deserialize, Serialize};
 
-/// Share of the sample period within which a step's end and a tick count as the same instant: far above what an
-/// importer's rounding accumulates (1e-8 s after 2e5 steps), far below what matters.
+/// Share of the sample period within which a step's end and a tick count as the same instant: far above what step sizes
+/// that are no whole numbers of periods by a rounding sum up to (1e-8 periods after 1e8 steps), far below what matters.
 const SAME_INSTANT: f64 = 1e-3;
 
 /// One communication step, in the importer's time.
@@ -16,12 +16,33 @@ pub struct Step {
     pub t: f64,
     /// Length of the step (s), finite and positive.
     pub h: f64,
+    /// From the start of the experiment to the beginning of the step (s): the sum of the step sizes so far. It is what
+    /// samples and ticks are counted in, because `t` rounds.
+    pub elapsed: f64,
 }
 
 /// Most periods that one step may take: more would seem to hang (1e8 substeps take from seconds to minutes).
 const MOST_PERIODS: f64 = 1e8;
 
 impl Step {
+    /// The step from `t` of `h` (s) of an experiment that starts at 0, with times that did not round.
+    pub const fn at(t: f64, h: f64) -> Self {
+        Self {
+            start_time: 0.0,
+            t,
+            h,
+            elapsed: t,
+        }
+    }
+
+    /// How far from the step's end (s) an instant on a grid of `period` (s) still counts as that end: a thousandth of the
+    /// period, or what the importer's time cannot tell apart, but less than the step. An importer may give as step size
+    /// the difference of two times.
+    pub fn same_instant(&self, period: f64) -> f64 {
+        let resolution = f64::EPSILON * (self.t.abs() + self.h);
+        (SAME_INSTANT * period).max(resolution).min(0.5 * self.h)
+    }
+
     /// Refuses a step of more than 1e8 periods, where `period` (s) is what the model calls `name`: a sample period, a
     /// substep.
     ///
@@ -49,10 +70,11 @@ impl Step {
     }
 }
 
-/// Integer tick counter of a sampled model: tick k happens at `start_time + k·T`.
+/// Integer tick counter of a sampled model: tick k happens k·T after the start time.
 ///
 /// A step from t to t + h runs the ticks in [t, t + h), whatever rounding the importer's times carry: many small steps
-/// and one large step run the same ticks.
+/// and one large step run the same ticks. A step of T runs one tick, always: up to start times of 2e9 s, for 1e8 steps,
+/// whether the importer sums its time or multiplies.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Ticks {
     next: u64,
@@ -65,13 +87,24 @@ impl Ticks {
         reason = "T is the sample period of the paper and of the standard texts"
     )]
     pub fn within(&mut self, step: &Step, T: f64) -> core::ops::Range<u64> {
-        let same = (SAME_INSTANT * T).min(0.5 * step.h);
-        let end = ((step.t - step.start_time + step.h - same) / T).ceil();
+        let end = ((step.elapsed + step.h - step.same_instant(T)) / T).ceil();
         let first = self.next;
         if end > first as f64 {
             self.next = end as u64;
         }
         first..self.next
+    }
+
+    /// Refuses a counter that does not belong to the time of `clock`, with sample period `T` (s).
+    ///
+    /// # Errors
+    /// A [`Refusal`] with the count and what was expected.
+    #[allow(
+        non_snake_case,
+        reason = "T is the sample period of the paper and of the standard texts"
+    )]
+    pub fn check(&self, clock: &Clock, T: f64) -> Result<(), Refusal> {
+        clock.counted("number of ticks", self.next, T)
     }
 }
 
@@ -79,43 +112,10 @@ impl Ticks {
 mod tests {
     use super::*;
 
-    fn ticks(
-        times: impl Iterator<Item = (f64, f64)>,
-        start_time: f64,
-    ) -> Vec<core::ops::Range<u64>> {
-        let mut clock = Ticks::default();
-        times
-            .map(|(t, h)| clock.within(&Step { start_time, t, h }, 0.002))
-            .collect()
-    }
-
     #[test]
     fn the_first_step_runs_the_tick_at_the_start_time() {
         for h in [1e-9, 1e-5, 0.002] {
-            assert_eq!(ticks(std::iter::once((7.0, h)), 7.0).first(), Some(&(0..1)));
-        }
-    }
-
-    #[test]
-    fn accumulated_and_multiplied_times_run_one_tick_a_step() {
-        let (start, h) = (0.3, 0.002);
-        let mut t = start;
-        let accumulated: Vec<_> = (0..200_000)
-            .map(|_| {
-                let now = t;
-                t += h;
-                (now, h)
-            })
-            .collect();
-        let multiplied = (0..200_000).map(|i| (start + f64::from(i) * h, h));
-        for (k, run) in ticks(accumulated.into_iter(), start)
-            .into_iter()
-            .enumerate()
-        {
-            assert_eq!(run, k as u64..k as u64 + 1);
-        }
-        for (k, run) in ticks(multiplied, start).into_iter().enumerate() {
-            assert_eq!(run, k as u64..k as u64 + 1);
+            assert_eq!(Ticks::default().within(&Step::at(0.0, h), 0.002), 0..1);
         }
     }
 
@@ -123,7 +123,10 @@ mod tests {
     fn small_and_large_steps_run_the_same_ticks() {
         for h in [0.002 / 10.0, 0.002 / 3.0, 0.003, 0.014, 0.2] {
             let n = (2.0_f64 / h).round() as u32;
-            let run = ticks((0..n).map(|i| (f64::from(i) * h, h)), 0.0);
+            let mut ticks = Ticks::default();
+            let run: Vec<_> = (0..n)
+                .map(|i| ticks.within(&Step::at(f64::from(i) * h, h), 0.002))
+                .collect();
             assert_eq!(
                 run.last().map(|r| r.end),
                 Some((f64::from(n) * h / 0.002 - 1e-3).ceil() as u64),
@@ -135,11 +138,7 @@ mod tests {
 
     #[test]
     fn substeps_are_equal_and_end_at_the_end() {
-        let step = |h| Step {
-            start_time: 0.0,
-            t: 0.1,
-            h,
-        };
+        let step = |h| Step::at(0.1, h);
         assert_eq!(step(0.002).substeps(8e-5), (25, 0.002 / 25.0));
         assert_eq!(step(0.002_000_000_000_000_002).substeps(8e-5).0, 25);
         assert_eq!(step(1e-7).substeps(8e-5), (1, 1e-7));

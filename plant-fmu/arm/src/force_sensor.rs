@@ -20,7 +20,7 @@ choices! { FAILURE "ForceSensorFailure" "How the force sensor fails":
     DROPOUT = 5 "dropout" "shows 0 on all axes";
 }
 
-/// A sample within this share of the period of a step's end belongs to the step: importers' times carry rounding.
+/// The sensor fails from the first sample on that is not earlier by more than this share of the period: times round.
 const SAME_INSTANT: f64 = 1e-3;
 
 /// What the sensor is like. At the start perfect, sampled at 1 kHz.
@@ -72,10 +72,8 @@ impl ForceSensor {
     /// The last sample in (t, t + h], if there is one after sample `last`: its number and its time after the begin of
     /// the step (s).
     pub fn due(&self, step: &Step, last: u64) -> Option<(u64, f64)> {
-        let begin = step.t - step.start_time;
-        let same = (SAME_INSTANT * self.T).min(0.5 * step.h);
-        let k = ((begin + step.h + same) / self.T).floor();
-        (k > last as f64).then(|| (k as u64, (k * self.T - begin).clamp(0.0, step.h)))
+        let k = ((step.elapsed + step.h + step.same_instant(self.T)) / self.T).floor();
+        (k > last as f64).then(|| (k as u64, (k * self.T - step.elapsed).clamp(0.0, step.h)))
     }
 
     /// Sample `k` at `start_time` + k·T of the force `f_h` at the handle (base frame, N), after the reading `last`.

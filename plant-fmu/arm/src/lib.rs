@@ -13,11 +13,11 @@
 //! let mut arm = ExoskeletonArm::default();
 //! arm.initialize(0.0, &mut Log::silent())?;
 //! let start = arm.outputs.q; // at rest, bent: handle 0.44 m ahead, 0.24 m below the shoulder …
-//! arm.step(Step { start_time: 0.0, t: 0.0, h: 1.0 }, &mut Log::silent())?;
+//! arm.step(Step::at(0.0, 1.0), &mut Log::silent())?;
 //! assert_eq!(arm.outputs.q, start); // … and friction alone holds it there, exactly
 //!
 //! arm.inputs.tau_a = [0.0, 60.0, 20.0]; // both pitch joints up
-//! arm.step(Step { start_time: 0.0, t: 1.0, h: 0.2 }, &mut Log::silent())?;
+//! arm.step(Step::at(1.0, 0.2), &mut Log::silent())?;
 //! assert!(arm.outputs.dp[2] > 0.0);
 //! # Ok::<(), export::Refusal>(())
 //! ```

@@ -3,7 +3,7 @@
 use crate::ExoskeletonArm;
 use crate::rows::{Outputs, RigidBody};
 use export::access::check_parameters;
-use export::{Log, Model, Refusal, Step};
+use export::{Clock, Log, Model, Refusal, Step};
 use mechanics::arm::{Arm, Inputs, Parameters, Start};
 use nalgebra::{Matrix3, Vector3};
 
@@ -19,6 +19,10 @@ impl Model for ExoskeletonArm {
 
     fn accepts(&self, step: &Step) -> Result<(), Refusal> {
         step.at_most("substep", self.substep)
+    }
+
+    fn fits(&self, clock: &Clock) -> Result<(), Refusal> {
+        clock.counted("number of force samples", self.reading.k, self.ft.T)
     }
 
     fn step(&mut self, step: Step, log: &mut Log<'_>) -> Result<(), Refusal> {

@@ -19,11 +19,7 @@ fn a_step_allocates_nothing() {
     plant.initialize(0.0, &mut log).unwrap();
     let (n, ()) = allocations(|| {
         for k in 0..1_000 {
-            let step = Step {
-                start_time: 0.0,
-                t: f64::from(k) * 0.001,
-                h: 0.001,
-            };
+            let step = Step::at(f64::from(k) * 0.001, 0.001);
             if plant.step(step, &mut log).is_err() {
                 panic!("refused");
             }

@@ -8,6 +8,7 @@ use exoskeleton_arm::ExoskeletonArm;
 use exoskeleton_arm::encoder::{JOINT, MOTOR};
 use exoskeleton_arm::force_sensor::{DROPOUT, NAN, OVER_RANGE, SENSOR, STUCK};
 use exoskeleton_arm::noise::normal;
+use export::{Clock, Model, Step};
 use nalgebra::{Matrix3, Vector3};
 
 #[test]
@@ -274,4 +275,20 @@ fn sensors_do_not_touch_the_plant() {
     run(&mut bad, 0, 300);
     assert_eq!(ideal.plant, bad.plant);
     assert!(ideal.outputs.energy.work_f_h > 0.1);
+}
+
+#[test]
+fn a_number_of_samples_that_is_not_that_of_the_time_is_refused_by_name() {
+    let mut arm = started(|_| ());
+    let mut clock = Clock::at_start(0.0);
+    for k in 0..20 {
+        step(&mut arm, f64::from(k) * 1e-3, 1e-3);
+        clock.advance(&Step::at(0.0, 1e-3));
+    }
+    assert_eq!(arm.fits(&clock), Ok(()));
+    // A sensor that is ahead of the time would take no sample any more.
+    arm.reading.k = u64::MAX;
+    let refusal = arm.fits(&clock).unwrap_err();
+    let named = "number of force samples = 18446744073709551615, expected 20 periods of 0.001 s";
+    assert!(refusal.0.starts_with(named), "{refusal}");
 }

@@ -152,11 +152,7 @@ fn a_saved_state_continues_bit_for_bit() {
 }
 
 fn refused(arm: &mut ExoskeletonArm, h: f64) -> String {
-    let step = Step {
-        start_time: 0.0,
-        t: 0.0,
-        h,
-    };
+    let step = Step::at(0.0, h);
     arm.step(step, &mut Log::silent()).unwrap_err().0
 }
 
@@ -175,11 +171,7 @@ fn a_force_that_leaves_the_range_of_numbers_fails_the_step_and_is_named() {
 #[test]
 fn a_step_that_would_seem_to_hang_is_not_accepted() {
     let arm = started(|_| ());
-    let step = |h| Step {
-        start_time: 0.0,
-        t: 0.0,
-        h,
-    };
+    let step = |h| Step::at(0.0, h);
     assert_eq!(arm.accepts(&step(1e4)), Ok(()));
     assert_eq!(
         arm.accepts(&step(1e9)).unwrap_err().0,

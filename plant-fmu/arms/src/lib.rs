@@ -20,7 +20,7 @@
 //!
 //! (arms.inputs.left.vacuum, arms.inputs.right.vacuum) = (true, true);
 //! arms.inputs.left.tau_a = [0.0, 300.0, 150.0]; // the left arm lifts alone, the right one's drives are off …
-//! arms.step(Step { start_time: 0.0, t: 0.0, h: 0.5 }, &mut Log::silent())?;
+//! arms.step(Step::at(0.0, 0.5), &mut Log::silent())?;
 //! let shown = arms.outputs;
 //! assert!(shown.attached && shown.right.p[2] > -0.24); // … and comes along
 //! assert!(shown.gap < 1e-5 && shown.lambda[2] < 0.0);

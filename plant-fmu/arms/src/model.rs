@@ -18,14 +18,12 @@ impl Model for ExoskeletonArms {
         Ok(())
     }
 
+    fn accepts(&self, step: &Step) -> Result<(), Refusal> {
+        step.at_most("substep", self.substep)
+    }
+
     fn step(&mut self, step: Step, log: &mut Log<'_>) -> Result<(), Refusal> {
         let (n, dt) = step.substeps(self.substep);
-        if n == u32::MAX {
-            return Err(Refusal(format!(
-                "step size {:?} s: expected less than {n} substeps of {:?} s",
-                step.h, self.substep
-            )));
-        }
         let Inputs { left, right } = self.inputs;
         self.plant.advance(&[left, right], n, dt);
         let was_attached = self.outputs.attached;

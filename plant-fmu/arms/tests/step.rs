@@ -33,11 +33,7 @@ fn each_port_drives_its_own_arm() {
         (single.inputs.f_h, single.inputs.tau_a) = (f_h, tau_a);
         single.initialize(0.0, &mut Log::silent()).unwrap();
         for k in 0..300 {
-            let step = Step {
-                start_time: 0.0,
-                t: f64::from(k) * 1e-3,
-                h: 1e-3,
-            };
+            let step = Step::at(f64::from(k) * 1e-3, 1e-3);
             single.step(step, &mut Log::silent()).unwrap();
         }
         assert_ne!(single.outputs.dq, [0.0; 3]);
@@ -91,11 +87,7 @@ fn a_state_that_is_restored_continues_to_the_last_bit() {
 fn one_long_step_is_many_short_ones() {
     let (mut short, mut long) = (lifting(), lifting());
     run(&mut short, 0, 100);
-    let step = Step {
-        start_time: 0.0,
-        t: 0.0,
-        h: 0.1,
-    };
+    let step = Step::at(0.0, 0.1);
     long.step(step, &mut Log::silent()).unwrap();
     // The substeps differ by roundings of 0.1/1000; after 1000 of them some 1e-13 is left.
     for i in 0..3 {
@@ -105,32 +97,23 @@ fn one_long_step_is_many_short_ones() {
 }
 
 #[test]
-fn a_step_of_too_many_substeps_is_refused() {
-    let mut arms = started(|arms| arms.substep = 1e-7);
-    let step = Step {
-        start_time: 0.0,
-        t: 0.0,
-        h: 1e9,
-    };
-    let refusal = arms.step(step, &mut Log::silent()).unwrap_err();
-    assert!(
-        refusal
-            .0
-            .starts_with("step size 1000000000.0 s: expected less than"),
-        "{}",
-        refusal.0
-    );
+fn a_step_of_too_many_substeps_is_refused_before_anything_moves() {
+    let arms = started(|arms| arms.substep = 1e-7);
+    assert_eq!(arms.accepts(&Step::at(0.0, 10.0)), Ok(()));
+    for h in [10.1, 429.5, 1e9] {
+        let refusal = arms.accepts(&Step::at(0.0, h)).unwrap_err();
+        assert_eq!(
+            refusal.0,
+            format!("communicationStepSize = {h:?} s, expected at most 10.0 s (1e8 times substep)")
+        );
+    }
 }
 
 #[test]
 fn numbers_out_of_range_are_refused() {
     let mut arms = lifting();
     arms.inputs.right.f_h[0] = 1e308;
-    let step = Step {
-        start_time: 0.0,
-        t: 0.0,
-        h: 1.0,
-    };
+    let step = Step::at(0.0, 1.0);
     let refusal = arms.step(step, &mut Log::silent()).unwrap_err();
     assert!(
         refusal.0.starts_with("motion left the range of numbers"),

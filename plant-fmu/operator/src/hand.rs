@@ -1,6 +1,7 @@
 //! The impedance hand: it pulls the handle toward where it wants to be, by what it felt a reflex ago.
 
 use crate::history::{History, Sample};
+use export::Refusal;
 use serde::{Deserialize, Serialize};
 
 /// A hand of stiffness `k_h` and damping `b_h` with a reflex delay.
@@ -29,6 +30,20 @@ impl Hand {
             p_intended,
             history: History::new(delay, first),
         }
+    }
+
+    /// Refuses a hand that came as bytes and is not one of this reflex `delay` (s).
+    ///
+    /// # Errors
+    /// What [`History::check`] says.
+    pub fn check(&self, delay: f64) -> Result<(), Refusal> {
+        self.history.check(delay)
+    }
+
+    /// Takes hold anew: wants to be at `p_intended` (m), and until now felt what `first` says.
+    pub fn take_hold(&mut self, p_intended: [f64; 3], first: Sample) {
+        self.p_intended = p_intended;
+        self.history.restart(first);
     }
 
     /// Feels where the handle is now.

@@ -1,5 +1,6 @@
 //! What the hand felt: motion of the handle during the last reflex delay.
 
+use export::Refusal;
 use serde::{Deserialize, Serialize};
 
 /// Position and velocity at an instant.
@@ -18,6 +19,11 @@ pub const CAPACITY: usize = 1024;
 /// Longest reflex delay (s).
 pub const DELAY_MAX: f64 = 1.0;
 
+/// Samples kept for a delay (s).
+fn kept(delay: f64) -> usize {
+    if delay > 0.0 { CAPACITY } else { 1 }
+}
+
 /// A ring of samples that reaches back by the delay, whatever the steps: samples closer than `spacing` to their
 /// predecessor give way to the next, so that the ring spans the delay and never runs over. Its memory is reserved when it
 /// is built, none if the delay is 0.
@@ -32,13 +38,39 @@ pub struct History {
 impl History {
     /// Everything until now was as in `first`.
     pub fn new(delay: f64, first: Sample) -> Self {
-        let kept = if delay > 0.0 { CAPACITY } else { 1 };
         Self {
             delay,
-            ring: vec![first; kept],
+            ring: vec![first; kept(delay)],
             newest: 0,
             len: 1,
         }
+    }
+
+    /// Everything until now was as in `first`, again; in the memory that is there.
+    pub fn restart(&mut self, first: Sample) {
+        self.ring.fill(first);
+        (self.newest, self.len) = (0, 1);
+    }
+
+    /// Refuses a history that came as bytes and is not one of this `delay` (s): its places must lie within its ring.
+    ///
+    /// # Errors
+    /// A [`Refusal`] with the numbers and what was expected.
+    pub fn check(&self, delay: f64) -> Result<(), Refusal> {
+        let (kept, Self { newest, len, .. }) = (kept(delay), self);
+        if self.delay == delay
+            && self.ring.len() == kept
+            && *newest < kept
+            && (1..=kept).contains(len)
+        {
+            return Ok(());
+        }
+        Err(Refusal(format!(
+            "what the hand felt: {len} of {} samples, the newest at place {newest}, over {:?} s, \
+             expected 1 to {kept} of {kept} samples over delay = {delay:?} s",
+            self.ring.len(),
+            self.delay
+        )))
     }
 
     /// The newest sample's `back`-th predecessor, for `back` < `len`.

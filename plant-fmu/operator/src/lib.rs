@@ -16,7 +16,7 @@
 //! assert_eq!(human.outputs.f_h, [0.0; 3]); // at the intended position, the plan not begun
 //!
 //! human.inputs.p[0] += 0.01; // where the handle is at the end of the step
-//! human.step(Step { start_time: 0.0, t: 0.0, h: 0.25 }, &mut Log::silent())?;
+//! human.step(Step::at(0.0, 0.25), &mut Log::silent())?;
 //! assert!((human.outputs.f_h[0] + 2.0).abs() < 1e-12 && human.outputs.f_h[2] == -3.0);
 //! # Ok::<(), export::Refusal>(())
 //! ```
@@ -29,6 +29,8 @@
 //! | f_hand | k_h (p_intended − p(t − delay)) − b_h dp(t − delay), 0 from let_go on | N | [`hand::Hand::force`] |
 //!
 //! 1. [`initialize`](export::Model::initialize) shows the force at the start time, with the inputs as they are then.
+//!    p = 0 on all axes counts as not there yet, as in an importer that exchanges nothing during initialization: the hand
+//!    then takes hold at the first step. From the shoulder, where 0 is, it would pull with 50 N at k_h = 100 N/m.
 //! 2. [`step`](export::Model::step) from t to t + h shows the force at t + h. The inputs set before it count as those at
 //!    t + h: step the arm first, hand its `p` and `dp` over, then step the human.
 //!

@@ -6,7 +6,7 @@ use crate::history::Sample;
 use crate::profile::{self, Segment};
 use crate::rows::{Inputs, Outputs};
 use export::access::check_parameters;
-use export::{Log, Model, Refusal, Step};
+use export::{Clock, Log, Model, Refusal, Step};
 
 impl Model for HumanOperator {
     fn initialize(&mut self, start_time: f64, _log: &mut Log<'_>) -> Result<(), Refusal> {
@@ -18,19 +18,24 @@ impl Model for HumanOperator {
                 "segment[{i}].t_off = {t_off} s, expected at least segment[{i}].t_on = {t_on} s"
             )));
         }
-        let p_intended = if self.intended_from_start {
-            self.inputs.p
-        } else {
-            self.p_intended
-        };
-        let first = self.felt(start_time);
+        let (p_intended, first) = (self.intended(), self.felt(start_time));
         self.hand = Hand::new(self.k_h, self.b_h, self.delay, p_intended, first);
+        // An importer that exchanges nothing during initialization leaves p at its start value, in the shoulder.
+        self.has_felt = self.inputs.p != [0.0; 3];
         self.show(start_time);
         Ok(())
     }
 
+    fn fits(&self, _clock: &Clock) -> Result<(), Refusal> {
+        self.hand.check(self.delay)
+    }
+
     fn step(&mut self, step: Step, _log: &mut Log<'_>) -> Result<(), Refusal> {
         let t = step.t + step.h;
+        if !self.has_felt {
+            self.hand.take_hold(self.intended(), self.felt(step.t));
+            self.has_felt = true;
+        }
         self.hand.feel(self.felt(t));
         self.show(t);
         Ok(())
@@ -42,6 +47,15 @@ impl HumanOperator {
     fn felt(&self, t: f64) -> Sample {
         let Inputs { p, dp } = self.inputs;
         Sample { t, p, dp }
+    }
+
+    /// Where a hand that takes hold now wants to be.
+    fn intended(&self) -> [f64; 3] {
+        if self.intended_from_start {
+            self.inputs.p
+        } else {
+            self.p_intended
+        }
     }
 
     /// Outputs at `t`.

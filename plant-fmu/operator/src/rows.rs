@@ -41,7 +41,8 @@ pub struct HumanOperator {
     /// where the hand wants to be, base frame, unless intended_from_start
     #[parameter(16, unit = METRE, range = -1e3..=1e3)]
     pub p_intended: [f64; 3],
-    /// the hand wants to be where p is at initialization; p_intended is not used
+    /// the hand wants to be where p is at initialization, p_intended is not used; if p is 0 on all axes then, as in an
+    /// importer that exchanges nothing during initialization: where p is at the first step
     #[parameter(17, start = true)]
     pub intended_from_start: bool,
     /// time from which on the hand holds no more and f_hand is 0; 1e9: never
@@ -50,6 +51,8 @@ pub struct HumanOperator {
 
     /// State, not in the interface: the hand, built anew by each initialization.
     pub hand: Hand,
+    /// State, not in the interface: whether the hand has felt where the handle is.
+    pub has_felt: bool,
 }
 
 /// What the human feels.

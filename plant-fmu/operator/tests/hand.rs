@@ -35,11 +35,7 @@ fn worst_error(delay: f64, h: f64) -> f64 {
         let t = f64::from(k) * h;
         let end = t + h;
         (human.inputs.p, human.inputs.dp) = motion(end);
-        let step = Step {
-            start_time: 0.0,
-            t,
-            h,
-        };
+        let step = Step::at(t, h);
         human.step(step, &mut Log::silent()).unwrap();
         let then = end - delay;
         let (p, dp) = motion(then);
@@ -97,11 +93,7 @@ fn a_reflex_far_longer_than_the_steps_needs_no_more_memory() {
     for k in 0..200_000 {
         let t = f64::from(k) * 1e-5;
         human.inputs.p = motion(t + 1e-5).0;
-        let step = Step {
-            start_time: 0.0,
-            t,
-            h: 1e-5,
-        };
+        let step = Step::at(t, 1e-5);
         human.step(step, &mut Log::silent()).unwrap();
         let then = t + 1e-5 - 1.0;
         if then > 1e-3 {
@@ -133,6 +125,62 @@ fn the_hand_wants_to_be_where_it_starts_or_where_it_is_told() {
     assert_eq!(at(true), [-1.0, 0.0, 0.0]);
     let f_h = at(false);
     assert!((f_h[0] - 9.0).abs() < 1e-13 && (f_h[1] - 2.0).abs() < 1e-13 && f_h[2] == 0.0);
+}
+
+/// Largest force of a hand of 100 N/m and 5 N·s/m that feels the moving handle from the first step on, but nothing at
+/// initialization.
+fn pull_when_late(delay: f64, intended_from_start: bool) -> f64 {
+    let mut human = HumanOperator {
+        k_h: 100.0,
+        b_h: 5.0,
+        delay,
+        p_intended: P_0,
+        intended_from_start,
+        ..HumanOperator::default()
+    };
+    human.initialize(0.0, &mut Log::silent()).unwrap();
+    let mut largest: f64 = 0.0;
+    for k in 0..200 {
+        let t = f64::from(k) * 1e-3;
+        human.inputs.p = motion(t * 0.1).0;
+        human.step(Step::at(t, 1e-3), &mut Log::silent()).unwrap();
+        largest = human
+            .outputs
+            .f_h
+            .iter()
+            .fold(largest, |a, f| a.max(f.abs()));
+    }
+    largest
+}
+
+#[test]
+fn a_hand_that_feels_nothing_at_initialization_takes_hold_at_the_first_step() {
+    for delay in [0.0, 0.05, 0.3] {
+        for intended_from_start in [true, false] {
+            // The handle moves 7 mm in these .2 s: .7 N. From the shoulder it would be 44 N.
+            let pull = pull_when_late(delay, intended_from_start);
+            assert!(pull < 0.75, "{pull} N with a delay of {delay} s");
+        }
+    }
+}
+
+#[test]
+fn a_hand_that_is_at_rest_in_the_origin_stays_there() {
+    // A rig with one axis starts at 0: the hand takes hold at the first step where it did at initialization.
+    let mut human = HumanOperator {
+        k_h: 100.0,
+        delay: 0.01,
+        ..HumanOperator::default()
+    };
+    human.initialize(0.0, &mut Log::silent()).unwrap();
+    human.step(Step::at(0.0, 0.1), &mut Log::silent()).unwrap();
+    assert_eq!(human.outputs.f_h, [0.0; 3]);
+    human.inputs.p[0] = 0.01;
+    for k in 1..3 {
+        let step = Step::at(0.1 * f64::from(k), 0.1);
+        human.step(step, &mut Log::silent()).unwrap();
+    }
+    assert_eq!(human.outputs.f_h, [-1.0, 0.0, 0.0]);
 }
 
 #[test]
@@ -178,11 +226,7 @@ fn a_saved_state_continues_bit_for_bit() {
         for k in from..to {
             let t = f64::from(k) * 1e-3;
             (human.inputs.p, human.inputs.dp) = motion(t + 1e-3);
-            let step = Step {
-                start_time: 0.0,
-                t,
-                h: 1e-3,
-            };
+            let step = Step::at(t, 1e-3);
             human.step(step, &mut Log::silent()).unwrap();
         }
     };
@@ -215,11 +259,7 @@ fn a_hand_that_lets_go_pulls_no_more_and_the_plan_goes_on() {
         (0.75, 0.25, 0.0),
         (1.0, 1.0, 0.0),
     ] {
-        let step = Step {
-            start_time: 0.0,
-            t,
-            h,
-        };
+        let step = Step::at(t, h);
         human.step(step, &mut Log::silent()).unwrap();
         // Rounding: 300 N/m · 0.1 m · 2⁻⁵².
         assert!((human.outputs.f_hand[1] - f_hand).abs() < 1e-13, "{t} s");

@@ -28,11 +28,7 @@ fn human(start: f64, segments: &[Segment]) -> HumanOperator {
 }
 
 fn step(human: &mut HumanOperator, t: f64, h: f64) {
-    let step = Step {
-        start_time: 0.0,
-        t,
-        h,
-    };
+    let step = Step::at(t, h);
     human.step(step, &mut Log::silent()).unwrap();
 }
 

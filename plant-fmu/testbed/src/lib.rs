@@ -10,7 +10,7 @@
 //! let mut plant = Testbed::default();
 //! plant.forces.tau_h = 5.0;
 //! plant.initialize(0.0, &mut Log::silent())?;
-//! plant.step(Step { start_time: 0.0, t: 0.0, h: 5.0 }, &mut Log::silent())?;
+//! plant.step(Step::at(0.0, 5.0), &mut Log::silent())?;
 //! let (shown, parameters) = (plant.outputs, plant.parameters);
 //! assert!(shown.q > parameters.wall.q && shown.tau_e < 0.0); // it leans on the wall …
 //! assert!(shown.tau_e + plant.forces.tau_h >= -parameters.friction.F_c); // … within friction

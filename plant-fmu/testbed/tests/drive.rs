@@ -24,11 +24,7 @@ fn driven(change: impl FnOnce(&mut Testbed)) -> Testbed {
 
 fn run(plant: &mut Testbed, h: f64, steps: u32) {
     for k in 0..steps {
-        let step = Step {
-            start_time: 0.0,
-            t: f64::from(k) * h,
-            h,
-        };
+        let step = Step::at(f64::from(k) * h, h);
         plant.step(step, &mut Log::silent()).unwrap();
     }
 }

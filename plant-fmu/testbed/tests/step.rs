@@ -11,16 +11,7 @@ fn started(mut plant: Testbed) -> Testbed {
 }
 
 fn step(plant: &mut Testbed, t: f64, h: f64) {
-    plant
-        .step(
-            Step {
-                start_time: 0.0,
-                t,
-                h,
-            },
-            &mut Log::silent(),
-        )
-        .unwrap();
+    plant.step(Step::at(t, h), &mut Log::silent()).unwrap();
 }
 
 /// Lands on the wall within 20 ms.
@@ -154,14 +145,7 @@ fn a_force_that_leaves_the_range_of_numbers_fails_the_step_and_is_named() {
         ..Testbed::default()
     });
     let refusal = plant
-        .step(
-            Step {
-                start_time: 0.0,
-                t: 0.0,
-                h: 1.0,
-            },
-            &mut Log::silent(),
-        )
+        .step(Step::at(0.0, 1.0), &mut Log::silent())
         .unwrap_err();
     assert!(
         refusal
@@ -175,11 +159,7 @@ fn a_force_that_leaves_the_range_of_numbers_fails_the_step_and_is_named() {
 #[test]
 fn a_step_that_would_seem_to_hang_is_not_accepted() {
     let plant = started(Testbed::default());
-    let step = |h| Step {
-        start_time: 0.0,
-        t: 0.0,
-        h,
-    };
+    let step = |h| Step::at(0.0, h);
     assert_eq!(plant.accepts(&step(8000.0)), Ok(()));
     assert_eq!(
         plant.accepts(&step(1e9)).unwrap_err().0,

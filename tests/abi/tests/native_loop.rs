@@ -44,11 +44,7 @@ fn linked(n: u32, law: i32, mass: f64) -> Vec<[f64; 6]> {
     controller.initialize(0.0, &mut log).expect("start values");
     (0..n)
         .map(|k| {
-            let step = Step {
-                start_time: 0.0,
-                t: f64::from(k) * T,
-                h: T,
-            };
+            let step = Step::at(f64::from(k) * T, T);
             let (tau_h, tau_d) = forces(k);
             (controller.inputs.q, controller.inputs.tau_h) = (plant.outputs.q, tau_h);
             controller.step(step, &mut log).expect("a step");

@@ -57,6 +57,7 @@ fn a_step_of_too_many_periods_is_refused_before_anything_moves() {
         ("Testbed", "substep"),
         ("ArmController", "T"),
         ("ExoskeletonArm", "substep"),
+        ("ExoskeletonArms", "substep"),
     ] {
         let instance = Phase::StepComplete.enter(&Fmu::open(name));
         refused(&instance, "fmi2DoStep", &["at most", period], |i| {
@@ -95,6 +96,22 @@ fn a_wrong_communication_point_is_refused_with_both_times() {
         }
         // What importers really pass: a rounding error beside it.
         assert_eq!(instance.step(0.010_000_000_000_000_009, 0.01), Status::OK);
+    }
+}
+
+#[test]
+fn a_step_past_a_defined_stop_time_is_made() {
+    for fmu in Fmu::all() {
+        let instance = Phase::Instantiated.enter(&fmu);
+        assert_eq!(instance.setup_experiment(0.0, Some(0.3)), Status::OK);
+        assert_eq!(instance.enter_initialization_mode(), Status::OK);
+        assert_eq!(instance.exit_initialization_mode(), Status::OK);
+        // To 3 * 0.1 s, a rounding past it, and on.
+        for k in 0..5 {
+            let status = instance.step(f64::from(k) * 0.1, 0.1);
+            assert_eq!(status, Status::OK, "{:?}", instance.messages());
+        }
+        assert!(f64::from(3) * 0.1 > 0.3);
     }
 }
 

@@ -75,6 +75,13 @@ impl Clocked {
         }
     }
 
+    /// With another period, which is the parameter `name`.
+    fn with_period(mut self, name: &str, period: f64) -> Self {
+        self.settings.push((self.fmu.reference(name), period));
+        self.period = period;
+        self
+    }
+
     /// An initialized instance.
     fn begin(&self, start: f64) -> Instance {
         let instance = self.fmu.instantiate();
@@ -119,12 +126,27 @@ impl Clocked {
 
     /// What is shown after each of the first steps of exactly one period from `start` on.
     fn by_the_period(&self, start: f64, steps: u64) -> Vec<Shown> {
+        self.by_the_period_of(Importer::Multiplies, start, steps)
+    }
+
+    /// The same, of an importer that has its own way to the next time.
+    fn by_the_period_of(&self, importer: Importer, start: f64, steps: u64) -> Vec<Shown> {
         let instance = self.begin(start);
+        let mut t = start;
         let step = |k: u64| {
             if k * PARTS % HELD == 0 {
                 self.set(&instance, k * PARTS / HELD);
             }
-            self.step(&instance, start + k as f64 * self.period, self.period);
+            let next = match importer {
+                Importer::Sums => t + self.period,
+                _ => start + (k + 1) as f64 * self.period,
+            };
+            let size = match importer {
+                Importer::Subtracts => next - t,
+                _ => self.period,
+            };
+            self.step(&instance, t, size);
+            t = next;
             self.shown(&instance)
         };
         (0..steps).map(step).collect()
@@ -181,6 +203,17 @@ impl Clocked {
             self.check(&reference, random_sizes(), summed);
         }
     }
+}
+
+/// How an importer comes to the time of the next step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Importer {
+    /// t + h
+    Sums,
+    /// startTime + k h
+    Multiplies,
+    /// startTime + k h, and as step size the difference of two of these, as fmpy does
+    Subtracts,
 }
 
 /// References of the Real variables of a causality.
@@ -243,6 +276,40 @@ fn ticks_and_samples_count_from_the_start_time() {
         let reference = one.by_the_period(0.0, 50);
         for start in [-1.0, 0.0013, 1e4] {
             assert_eq!(one.by_the_period(start, 50), reference, "start {start}");
+        }
+    }
+}
+
+#[test]
+fn since_1970_too_a_step_of_the_period_runs_one_tick_and_shows_one_sample() {
+    // The time has 2⁻²² s there, 0.0024 periods: a sum falls behind by 0.1 % of the steps.
+    for one in [
+        Clocked::controller("TestbedController").with_period("T", 1e-4),
+        Clocked::controller("ArmController").with_period("T", 1e-4),
+        Clocked::sensor().with_period("ft.T", 1e-4),
+    ] {
+        let reference = one.by_the_period(0.0, 20_000);
+        for importer in [Importer::Sums, Importer::Multiplies, Importer::Subtracts] {
+            for start in [1.7e9, 2e9] {
+                let shown = one.by_the_period_of(importer, start, 20_000);
+                let same = shown.iter().zip(&reference).position(|(a, b)| a != b);
+                assert_eq!(same, None, "{}, {importer:?} from {start}", one.fmu.name);
+            }
+        }
+    }
+}
+
+#[test]
+fn summed_milliseconds_run_one_tick_a_step_after_two_hours() {
+    let one = Clocked::controller("TestbedController").with_period("T", 1e-3);
+    let (instance, tick) = (one.begin(0.0), one.fmu.reference("tick"));
+    let mut t = 0.0;
+    for k in 0..7_162_000 {
+        one.step(&instance, t, 1e-3);
+        t += 1e-3;
+        // The sum has fallen behind by a thousandth of the period at step 7,160,328, which ran two ticks.
+        if k > 7_158_000 {
+            assert_eq!(instance.integer(tick), k, "step {k}");
         }
     }
 }

@@ -77,6 +77,34 @@ fn bounds_are_included_and_beyond_them_is_refused() {
 }
 
 #[test]
+fn a_boolean_other_than_0_and_1_is_refused_by_name() {
+    let mut tried = 0;
+    for fmu in Fmu::all() {
+        let instance = Phase::Instantiated.enter(&fmu);
+        let settable = |v: &&abi::Variable| matches!(v.causality.as_str(), "input" | "parameter");
+        for v in fmu.variables.iter().filter(settable) {
+            if v.kind != (Kind::Boolean {}) {
+                continue;
+            }
+            let before = instance.boolean(v.reference);
+            for value in [0x100, -1, 2, i32::MIN, i32::MAX] {
+                let part = format!("{} = {value}, expected 0 or 1", v.name);
+                refused(&instance, "fmi2SetBoolean", &[&part], |i| {
+                    i.set_boolean(&[v.reference], &[value])
+                });
+                assert_eq!(instance.boolean(v.reference), before);
+            }
+            for value in [1, 0, before] {
+                assert_eq!(instance.set_boolean(&[v.reference], &[value]), Status::OK);
+                assert_eq!(instance.boolean(v.reference), value);
+            }
+            tried += 1;
+        }
+    }
+    assert!(tried > 10, "{tried} Booleans");
+}
+
+#[test]
 fn an_enumeration_accepts_its_items_only() {
     for (fmu, name, items) in [
         (Fmu::lag(), "method", 2),

@@ -118,14 +118,7 @@ impl<M: Model> Driven for Linked<M> {
 
     fn step(&mut self, t: f64) {
         self.0
-            .step(
-                Step {
-                    start_time: 0.0,
-                    t,
-                    h: T,
-                },
-                &mut Log::silent(),
-            )
+            .step(Step::at(t, T), &mut Log::silent())
             .expect("stepped");
     }
 

@@ -40,11 +40,7 @@ fn initialized(change: impl FnOnce(&mut ArmController)) -> ArmController {
 
 /// Step number `k` of length `h` (s) from 0 on.
 fn step(controller: &mut ArmController, k: u32, h: f64) {
-    let step = Step {
-        start_time: 0.0,
-        t: f64::from(k) * h,
-        h,
-    };
+    let step = Step::at(f64::from(k) * h, h);
     controller.step(step, &mut Log::silent()).expect("a step");
 }
 

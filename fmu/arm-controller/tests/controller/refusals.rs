@@ -139,11 +139,7 @@ fn clipping_is_refused_where_the_nominal_feels_what_the_robot_gets() {
 
 #[test]
 fn a_step_before_initialization_is_refused() {
-    let step = Step {
-        start_time: 0.0,
-        t: 0.0,
-        h: 0.001,
-    };
+    let step = Step::at(0.0, 0.001);
     let refusal = controller(|_| ())
         .step(step, &mut Log::silent())
         .expect_err("not initialized");
@@ -175,11 +171,7 @@ fn a_result_that_is_not_finite_fails_the_step() {
         let at_rest = c.outputs.tau_a;
         let changed = controller(change);
         (c.inputs.q, c.inputs.engage) = (changed.inputs.q, changed.inputs.engage);
-        let step = Step {
-            start_time: 0.0,
-            t: 0.0,
-            h: 0.02,
-        };
+        let step = Step::at(0.0, 0.02);
         c.inputs.q[2] += 1.0;
         let failure = c.step(step, &mut Log::silent()).expect_err("not finite");
         assert!(

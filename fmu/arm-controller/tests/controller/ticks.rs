@@ -1,6 +1,7 @@
 //! Ticks and step sizes.
 
 use crate::{initialized, step};
+use export::{Clock, Model, Step};
 
 #[test]
 fn odd_step_sizes_run_the_same_ticks_as_one_step_a_tick() {
@@ -36,4 +37,18 @@ fn odd_step_sizes_run_the_same_ticks_as_one_step_a_tick() {
         (between.outputs.tau_a, between.outputs.p),
         (reference.outputs.tau_a, reference.outputs.p)
     );
+}
+
+#[test]
+fn a_number_of_ticks_that_is_not_that_of_the_time_is_refused_by_name() {
+    let mut controller = initialized(|_| ());
+    let mut clock = Clock::at_start(0.0);
+    for k in 0..20 {
+        step(&mut controller, k, 0.001);
+        clock.advance(&Step::at(0.0, 0.001));
+    }
+    assert_eq!(controller.fits(&clock), Ok(()));
+    let refusal = controller.fits(&Clock::at_start(0.0)).unwrap_err();
+    let named = "number of ticks = 20, expected 0 periods of 0.001 s";
+    assert!(refusal.0.starts_with(named), "{refusal}");
 }

@@ -1,7 +1,7 @@
 //! Variables by value reference: section 2.1.7.
 
 use super::known;
-use crate::access::Value;
+use crate::access::{NoValue, Value, boolean};
 use crate::ffi::*;
 use crate::guard::guard;
 use crate::legality::Function as F;
@@ -73,7 +73,7 @@ pub unsafe fn set_boolean<M: Model>(
         guard::<M>(c, F::fmi2SetBoolean, |instance| {
             let references = known(array(references, n), "vr")?;
             let values = known(array(values, n), "value")?;
-            instance.set::<bool>(references, |i| Ok(values[i] != 0))
+            instance.set::<bool>(references, |i| boolean(values[i]))
         })
     }
 }
@@ -117,9 +117,7 @@ pub unsafe fn set_string<M: Model>(
             let references = known(array(references, n), "vr")?;
             let values = known(array(values, n), "value")?;
             instance.set::<String>(references, |i| {
-                string(values[i])
-                    .map(str::to_owned)
-                    .ok_or("is null or not UTF-8, expected a UTF-8 string")
+                string(values[i]).map(str::to_owned).ok_or(NoValue::Text)
             })
         })
     }

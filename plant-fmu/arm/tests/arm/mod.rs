@@ -23,11 +23,7 @@ pub fn started(change: impl FnOnce(&mut ExoskeletonArm)) -> ExoskeletonArm {
 
 /// One step from t to t + h.
 pub fn step(arm: &mut ExoskeletonArm, t: f64, h: f64) {
-    let step = Step {
-        start_time: 0.0,
-        t,
-        h,
-    };
+    let step = Step::at(t, h);
     arm.step(step, &mut Log::silent()).unwrap();
 }
 

@@ -21,11 +21,7 @@ pub fn started(change: impl FnOnce(&mut ExoskeletonArms)) -> ExoskeletonArms {
 /// Steps of 1 ms from `from` to `to` (ms).
 pub fn run(arms: &mut ExoskeletonArms, from: u32, to: u32) {
     for k in from..to {
-        let step = Step {
-            start_time: 0.0,
-            t: f64::from(k) * 1e-3,
-            h: 1e-3,
-        };
+        let step = Step::at(f64::from(k) * 1e-3, 1e-3);
         arms.step(step, &mut Log::silent()).unwrap();
     }
 }
