@@ -279,6 +279,7 @@ def tune(
             gains = replace(gains, K=tuning.recommended_gain(machine=machine, gains=gains) or gains.K)
         answer = tuning.guide(machine=machine, gains=gains, frequency=frequency)
         written = show.write(guide=answer, out=out)
+    console.print(show.verdict(answer), markup=False)
     console.print(show.by_mass(answer))
     console.print(show.LEGEND.format(frequency=frequency), markup=False)
     console.print(show.summary(answer))
