@@ -17,7 +17,7 @@ from rich.table import Table
 
 from exo import benchmark as bench
 from exo import compare as comparison
-from exo import experiment, report, results, scenario, sensitivity, tool, validate
+from exo import experiment, readings, report, results, scenario, sensitivity, tool, validate
 from exo.errors import ExoError, FmuError, ScenarioError
 from exo.experiment import Experiment
 from exo.fmu import Archive, find_fmu_dir
@@ -192,13 +192,15 @@ def measure_sensitivity(
 
 @app.command("identify-tool")
 def identify_tool(
-    readings: Annotated[Path, typer.Argument(help="CSV: q[1..3], ft.force[1..3], ft.torque[1..3], a row a reading.")],
+    file: Annotated[
+        Path, typer.Argument(metavar="READINGS", help="CSV: q[1..3], ft.force[1..3], ft.torque[1..3], a row a reading.")
+    ],
     mount: Annotated[str, typer.Option(help="ft.mount of the sensor: roll,pitch,yaw in rad.")] = "0,0,0",
 ) -> None:
     """Prints mass and centre of gravity of what hangs on the force sensor, from readings at rest in several poses."""
     with sentences():
         angles = parse_angles(mount)
-        q, force, torque = tool.read(readings)
+        q, force, torque = readings.read(file)
         found = tool.identify(R=tool.orientation(q=q, mount=angles), force=force, torque=torque)
 
     def numbers(values: Iterable[float]) -> str:

@@ -176,7 +176,7 @@ class Late:
                 slope = np.where(
                     inside, late * (slope_D + self.m * D) + slope_R, slope_D + late * (slope_R - self.m * R)
                 )
-                step = value / slope
+                step = np.asarray(value / slope, dtype=np.complex128)
                 s = s - step
         s = s[(np.abs(step) <= 1e-9 * np.abs(s)) & (np.abs(s.real) < FARTHEST)]
         # One of each pair; the angle is that of a logarithm's principal value.
