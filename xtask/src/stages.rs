@@ -2,7 +2,7 @@
 //! told to keep going.
 
 use crate::process::{Failure, Outcome, cargo, root, run};
-use crate::venv::{Venv, check_machine};
+use crate::venv::{Packages, Venv, check_machine};
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
@@ -78,7 +78,7 @@ pub fn fmu(bless: bool) -> Outcome {
 pub fn ssp() -> Outcome {
     check_machine()?;
     let mut stages = Stages::new(false);
-    let venv = stages.stage("venv", Venv::ready);
+    let venv = stages.stage("venv", || Venv::ready(Packages::Run));
     stages.stage("fmu", || crate::fmu::build_all(false));
     if let Some(venv) = venv {
         stages.stage("exo ssp", || run(&mut venv.exo(["ssp"])));
@@ -87,15 +87,16 @@ pub fn ssp() -> Outcome {
 }
 
 /// `cargo xtask venv`
-pub fn venv() -> Outcome {
-    Venv::ready().map(|_| ())
+pub fn venv(tests: bool) -> Outcome {
+    let packages = if tests { Packages::Test } else { Packages::Run };
+    Venv::ready(packages).map(|_| ())
 }
 
 /// `cargo xtask reproduce`
 pub fn reproduce() -> Outcome {
     check_machine()?;
     let mut stages = Stages::new(false);
-    let venv = stages.stage("venv", Venv::ready);
+    let venv = stages.stage("venv", || Venv::ready(Packages::Run));
     stages.stage("fmu", || crate::fmu::build_all(false));
     let report = root().join("results/report.html");
     let mut written = false;
@@ -139,7 +140,7 @@ fn fmus() -> PathBuf {
 pub fn bench() -> Outcome {
     check_machine()?;
     let mut stages = Stages::new(false);
-    let venv = stages.stage("venv", Venv::ready);
+    let venv = stages.stage("venv", || Venv::ready(Packages::Test));
     stages.stage("fmu", || crate::fmu::build_all(false));
     stages.stage("instructions", || crate::instructions::check(&fmus()));
     stages.stage("cargo bench", || {
