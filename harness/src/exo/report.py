@@ -61,6 +61,7 @@ def _section(out: Path, name: str) -> dict[str, Any]:
         "about": scenario.about.strip(),
         "document": document,
         "run": document["run"],
+        "signals": (folder / "signals").is_dir(),
         "counts": {v: verdicts.count(v) for v in ("pass", "fail", "info")},
         "pictures": [_picture(folder, figure) for figure in scenario.figures],
         "speed": min(case["real_time_factor"] for case in cases),
@@ -75,7 +76,7 @@ def _picture(folder: Path, figure: Figure) -> Picture:
         title=figure.title,
         label=figure.label,
         uri=f"data:image/png;base64,{image}",
-        data=f"{folder.name}/figures/{figure.id}.csv",
+        data=f"{folder.name}/figures/{figure.id}.parquet",
     )
 
 
