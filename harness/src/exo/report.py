@@ -11,6 +11,7 @@ from typing import Any
 import jinja2
 
 from exo.errors import ExoError
+from exo.paper import Published
 from exo.results import SCHEMA_ID
 from exo.scenario import Figure, load
 from exo.verdict import expectation
@@ -33,6 +34,7 @@ def write(*, out: Path, scenarios: list[str]) -> Path:
     )
     environment.filters["number"] = number
     environment.filters["expected"] = expected
+    environment.filters["off"] = off
     template = environment.from_string((resources.files("exo") / "report.html.jinja").read_text(encoding="utf-8"))
     sections = [_section(out, name) for name in scenarios]
     page = template.render(
@@ -83,6 +85,13 @@ def _picture(folder: Path, figure: Figure) -> Picture:
 def number(value: float | None) -> str:
     """Five digits; an undefined number says so."""
     return "undefined" if value is None else f"{value:.5g}"
+
+
+def off(metric: dict[str, Any]) -> str:
+    """Why the number of an entry of metrics.json is off the paper's by more than its rounding, or nothing."""
+    if metric["paper"] is None or metric["value"] is None:
+        return ""
+    return Published(**metric["paper"]).explains(metric["value"])
 
 
 def expected(metric: dict[str, Any]) -> str:

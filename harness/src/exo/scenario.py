@@ -141,6 +141,8 @@ class Ratio(Data):
     of: tuple[str, str]
     check: Check
     source: str
+    #: Key in paper.toml, or nothing.
+    paper: str = ""
 
 
 class Curve(Data):
