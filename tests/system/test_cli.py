@@ -91,10 +91,40 @@ def test_a_passing_run_exits_zero_and_leaves_everything(short: Path, tmp_path: P
     columns = recording.read(folder / "signals" / "push.parquet")
     assert len(columns["time"]) == 500
     assert {"controller.tau_a", "plant.q", "plant.energy.residual", "controller.tick"} <= set(columns)
-    table = recording.read(folder / "signals" / "push.csv")
-    assert all((columns[name] == table[name]).all() for name in columns)
+    assert not list(folder.rglob("*.csv"))
     assert (folder / "q.png").is_file()
     assert ET.parse(tmp_path / "out" / "junit.xml").find("testsuite/testcase").get("name") == "moved/push"
+
+
+def test_csv_is_written_on_request_and_holds_every_bit(short: Path, tmp_path: Path, fmu_dir: Path) -> None:
+    folder = tmp_path / "short"
+    assert run(short, tmp_path, fmu_dir, "--csv").exit_code == 0
+    for name in ("signals/push", "figures/q"):
+        columns, table = (recording.read(folder / f"{name}.{kind}") for kind in ("parquet", "csv"))
+        assert list(columns) == list(table)
+        assert all((columns[name] == table[name]).all() for name in columns)
+    # A run without them leaves none of an earlier one.
+    assert run(short, tmp_path, fmu_dir).exit_code == 0
+    assert not list(folder.rglob("*.csv"))
+    assert len(list(folder.rglob("*.parquet"))) == 2
+
+
+def test_signals_are_written_of_the_scenarios_that_are_named(short: Path, tmp_path: Path, fmu_dir: Path) -> None:
+    other = tmp_path / "other.toml"
+    other.write_text(short.read_text(encoding="utf-8").replace('id = "short"', 'id = "other"'), encoding="utf-8")
+    for choice, kept in (
+        ("all", {"short", "other"}),
+        ("other", {"other"}),
+        ("none", set()),
+        ("short,other", {"short", "other"}),
+    ):
+        assert run(short, tmp_path, fmu_dir, other, "--signals", choice).exit_code == 0
+        assert {path.parents[1].name for path in tmp_path.glob("*/signals/push.parquet")} == kept
+        assert (tmp_path / "short" / "metrics.json").is_file()
+    refused = run(short, tmp_path, fmu_dir, "--signals", "shrt")
+    assert refused.exit_code == 2
+    assert "--signals shrt: expected all, none or scenarios that run, got 'shrt'" in refused.stderr
+    assert "short" in refused.stderr.split("got")[1]
 
 
 def test_a_failed_verdict_exits_one_and_stands_in_the_junit_file(short: Path, tmp_path: Path, fmu_dir: Path) -> None:
@@ -194,7 +224,7 @@ def test_compare_finds_a_changed_gain_and_a_missing_case(short: Path, tmp_path: 
 def test_compare_of_two_files_measures_against_the_larger_peak(tmp_path: Path) -> None:
     time = np.arange(3.0)
     for name, values in (("a", [0.0, 10.0, 0.0]), ("b", [0.0, 20.0, 0.0])):
-        recording.write(pa.table({"time": time, "x": np.array(values)}), tmp_path / name)
+        recording.write(pa.table({"time": time, "x": np.array(values)}), tmp_path / name, csv=True)
     files = (tmp_path / "a.parquet", tmp_path / "b.csv")
     assert exo("compare", *files, "--tolerance", 0.499).exit_code == 1
     assert exo("compare", *files, "--tolerance", 0.501).exit_code == 0

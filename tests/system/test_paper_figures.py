@@ -6,6 +6,7 @@ import pytest
 
 from exo import results as results_on_disk
 from exo.experiment import Experiment
+from exo.kept import Kept
 from exo.recording import read
 
 SCENARIO = "paper_figures"
@@ -16,7 +17,7 @@ def test_the_paper_s_figure_is_drawn_and_stored_with_its_labels(
     label: str, experiment: Experiment, tmp_path: Path
 ) -> None:
     figure = next(figure for figure in experiment.scenario.figures if figure.label == label)
-    folder = results_on_disk.write(experiment=experiment, out=tmp_path)
+    folder = results_on_disk.write(experiment=experiment, out=tmp_path, kept=Kept(csv=True))
     assert (folder / f"{figure.id}.png").read_bytes().startswith(b"\x89PNG")
     columns = read(folder / "figures" / f"{figure.id}.csv")
     assert "time [s]" in columns

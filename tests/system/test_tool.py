@@ -10,6 +10,7 @@ from typer.testing import CliRunner
 from exo import tool
 from exo.cli import app
 from exo.errors import ExoError
+from exo.readings import COLUMNS, read
 
 MASS, COG = 0.82, np.array([0.011, -0.024, 0.063])
 BIAS_FORCE, BIAS_TORQUE = np.array([3.1, -1.7, 5.2]), np.array([0.12, -0.31, 0.07])
@@ -85,15 +86,37 @@ def test_poses_in_which_gravity_does_not_turn_are_refused() -> None:
     q = np.column_stack([np.linspace(-1.0, 1.0, 9), np.full(9, -1.0), np.full(9, 1.2)])  # yaw alone
     R = tool.orientation(q=q)
     force, torque = readings(R, seed=6)
-    with pytest.raises(ExoError, match="gravity hardly turns"):
+    with pytest.raises(ExoError, match=r"gravity hardly turns .* yaw, q\[1\], does not turn it"):
         tool.identify(R=R, force=force, torque=torque)
 
 
-def test_forces_of_the_wrong_sign_are_refused() -> None:
+@pytest.mark.parametrize(("arc", "refused"), [(0.8, True), (2.8, False)])
+def test_a_short_arc_about_one_axis_is_named_and_a_long_one_does(arc: float, refused: bool) -> None:
+    q = np.column_stack([np.zeros(9), np.linspace(-0.5 * arc, 0.5 * arc, 9), np.zeros(9)])
+    R = tool.orientation(q=q)
+    force, torque = readings(R, seed=9, noise=0.0)
+    if refused:
+        with pytest.raises(ExoError, match="the poses turn gravity about one axis only and not far enough"):
+            tool.identify(R=R, force=force, torque=torque)
+    else:
+        assert tool.identify(R=R, force=force, torque=torque).cog == pytest.approx(COG, abs=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("force_factor", "torque_factor", "sentence"),
+    [
+        (-1.0, -1.0, "the mass comes out as -0.*: the forces are negated"),
+        (-1.0, 1.0, "the mass comes out as -0.*: the forces are negated"),
+        (1.0, 1e3, "the centre of gravity comes out .* m from the sensor.*: the torques are not in N·m"),
+        (0.0, 1.0, "the forces do not follow the poses"),
+    ],
+)
+def test_a_wrong_sign_or_unit_is_named(force_factor: float, torque_factor: float, sentence: str) -> None:
     R = Rotation.random(8, random_state=7).as_matrix()
     force, torque = readings(R, seed=7)
-    with pytest.raises(ExoError, match="the mass comes out as -0"):
-        tool.identify(R=R, force=-force, torque=-torque)
+    with pytest.raises(ExoError, match=sentence) as refused:
+        tool.identify(R=R, force=force_factor * force, torque=torque_factor * torque)
+    assert "\n" not in str(refused.value)
 
 
 def write(path: Path, *, columns: list[str]) -> Path:
@@ -107,7 +130,7 @@ def write(path: Path, *, columns: list[str]) -> Path:
 
 @pytest.mark.parametrize("prefix", ["", "controller."])
 def test_the_command_prints_the_parameters(tmp_path: Path, prefix: str) -> None:
-    path = write(tmp_path / "poses.csv", columns=[prefix + name for name in tool.COLUMNS])
+    path = write(tmp_path / "poses.csv", columns=[prefix + name for name in COLUMNS])
     done = CliRunner().invoke(app, ["identify-tool", str(path), "--mount", "0,0.5,0"])
     assert done.exit_code == 0, done.output
     assert '"controller.ft.mass" = 0.82000' in done.output
@@ -122,3 +145,72 @@ def test_the_command_names_what_is_missing(tmp_path: Path) -> None:
     done = CliRunner().invoke(app, ["identify-tool", str(path), "--mount", "1,2"])
     assert done.exit_code == 2
     assert "expected roll,pitch,yaw" in done.output
+
+
+def spreadsheet(path: Path, *, between: str, point: str, encoding: str, end: str = "\n") -> Path:
+    plain = write(path, columns=[*COLUMNS]).read_text(encoding="utf-8")
+    text = plain.replace(",", "\0").replace(".", point).replace("\0", between)
+    header, _, rest = text.partition("\n")
+    header = header.replace(f"ft{point}", "ft.")
+    path.write_bytes(f"{header}\n{rest}".replace("\n", end).encode(encoding))
+    return path
+
+
+@pytest.mark.parametrize(
+    ("between", "point", "encoding", "end"),
+    [
+        (",", ".", "utf-8-sig", "\n"),
+        (";", ".", "utf-8", "\n"),
+        (";", ",", "utf-8-sig", "\r\n"),
+        ("\t", ",", "utf-8", "\r\n"),
+    ],
+)
+def test_what_a_spreadsheet_writes_is_read(tmp_path: Path, between: str, point: str, encoding: str, end: str) -> None:
+    path = spreadsheet(tmp_path / "poses.csv", between=between, point=point, encoding=encoding, end=end)
+    done = CliRunner().invoke(app, ["identify-tool", str(path), "--mount", "0,0.5,0"])
+    assert done.exit_code == 0, done.output
+    assert '"controller.ft.mass" = 0.82000' in done.output
+    assert '"controller.ft.cog" = [0.01100, -0.02400, 0.06300]' in done.output
+
+
+@pytest.mark.parametrize(
+    ("between", "point", "encoding", "sentence"),
+    [
+        (",", ",", "utf-8", "reading 1: 18 fields, expected 9 .* decimal commas between commas"),
+        (",", ".", "utf-16", "expected text in UTF-8"),
+    ],
+)
+def test_a_table_that_cannot_be_told_is_named(
+    tmp_path: Path, between: str, point: str, encoding: str, sentence: str
+) -> None:
+    path = spreadsheet(tmp_path / "poses.csv", between=between, point=point, encoding=encoding)
+    with pytest.raises(ExoError, match=sentence):
+        read(path)
+
+
+@pytest.mark.parametrize(
+    ("cell", "sentence"),
+    [
+        ("", r"reading 2, ft.force\[1\]: expected a finite number, got ''"),
+        ("nan", r"reading 2, ft.force\[1\]: expected a finite number, got 'nan'"),
+        ("1.2.3", r"reading 2, ft.force\[1\]: expected a finite number, got '1.2.3'"),
+        ("1,2", "reading 2: 10 fields, expected 9"),
+    ],
+)
+def test_a_reading_that_is_no_number_is_named(tmp_path: Path, cell: str, sentence: str) -> None:
+    path = write(tmp_path / "poses.csv", columns=[*COLUMNS])
+    lines = path.read_text(encoding="utf-8").splitlines()
+    fields = lines[2].split(",")
+    path.write_text("\n".join([*lines[:2], ",".join([*fields[:3], cell, *fields[4:]]), *lines[3:]]), encoding="utf-8")
+    with pytest.raises(ExoError, match=sentence):
+        read(path)
+
+
+def test_angles_in_degrees_are_named(tmp_path: Path) -> None:
+    path = write(tmp_path / "poses.csv", columns=[*COLUMNS])
+    header, *rows = path.read_text(encoding="utf-8").splitlines()
+    turned = [[float(x) for x in row.split(",")] for row in rows]
+    degrees = [[*np.degrees(row[:3]), *row[3:]] for row in turned]
+    path.write_text("\n".join([header, *(",".join(map(str, row)) for row in degrees)]), encoding="utf-8")
+    with pytest.raises(ExoError, match=r"q reaches .*, expected rad, at most 6.283: degrees\?"):
+        read(path)

@@ -13,7 +13,7 @@ from exo import theory
 from exo.cli import app
 from exo.errors import ExoError
 from exo.theory import Hand, Loop
-from exo.tuning import region
+from exo.tuning import chart, nyquist, region
 from exo.tuning.guide import at_mass, guide, recommended_gain, warning
 from exo.tuning.machine import Gains, Machine, loop
 
@@ -190,9 +190,11 @@ def test_an_unstable_loop_has_a_negative_time_constant_and_no_delay_margin() -> 
 @pytest.mark.parametrize(
     ("changes", "text"),
     [
-        ({"T": 0.0}, "T = 0: expected a finite value greater than 0"),
+        ({"T": 0.0}, "T = 0: expected a finite value, at least 1e-06"),
+        ({"M_min": 9e-7}, "M_min = 9e-07: expected a finite value, at least 1e-06"),
+        ({"M_max": 1e300}, "M_max = 1e[+]300: expected at most 1e[+]12"),
         ({"M_min": math.nan}, "M_min = nan"),
-        ({"k_h": -1.0}, "k_h = -1: expected a finite value not less than 0"),
+        ({"k_h": -1.0}, "k_h = -1: expected a finite value, at least 0"),
         ({"M_max": 5.0}, "M_max = 5: expected at least M_min = 6"),
         ({"delay": 2}, "delay = 2: expected 0 or 1"),
         ({"hand_delay": 1.5}, "hand_delay = 1.5: expected at most 1 s"),
@@ -208,6 +210,9 @@ def test_the_command_writes_numbers_and_map_and_fails_on_unstable_gains(tmp_path
     good = CliRunner().invoke(app, [*testbed, "--K", "60", "--substep", "8e-5", "--out", str(tmp_path)])
     assert good.exit_code == 0, good.output
     assert "recommended K" in good.output
+    assert good.output.startswith(
+        "stable: nothing grows at M = 6 kg. K = 60 N·s/m may rise by a factor of 101 and fall by"
+    )
     numbers = json.loads((tmp_path / "tune.json").read_text(encoding="utf-8"))
     assert numbers["stable"] is True
     assert numbers["masses"][0]["KT_over_M_limit"] == pytest.approx(2.0243, abs=1e-4)
@@ -215,10 +220,22 @@ def test_the_command_writes_numbers_and_map_and_fails_on_unstable_gains(tmp_path
     assert (tmp_path / "tune.png").read_bytes().startswith(b"\x89PNG")
     bad = CliRunner().invoke(app, [*testbed, "--K", "20", "--out", str(tmp_path)])
     assert bad.exit_code == 1
+    interval = json.loads((tmp_path / "tune.json").read_text(encoding="utf-8"))["stable_gains"]
+    held = Loop(M=6.0, M_n=1.0, D_n=2.0, K=0.0, K_P=10.0, alpha=1.0, T=0.002, substep=0.0)
+    below, above = (
+        theory.growth_rate(loop=replace(held, K=factor * interval["low"]), hand=Hand(k_h=20.0))
+        for factor in (0.999, 1.001)
+    )
+    assert above < 0.0 < below
+    assert bad.output.startswith("unstable: something grows by")
+    assert "K = 20 N·s/m; stable from 20.2 to 5830 N·s/m at every mass" in bad.output.split("\n")[0]
     assert json.loads((tmp_path / "tune.json").read_text(encoding="utf-8"))["stable"] is False
     refused = CliRunner().invoke(app, [*testbed, "--K", "-1", "--out", str(tmp_path)])
     assert refused.exit_code == 2
-    assert "K = -1: expected a finite value greater than 0" in refused.stderr
+    assert "K = -1: expected a finite value, at least 1e-06" in refused.stderr
+    refused = CliRunner().invoke(app, [*testbed, "--frequency", "300", "--out", str(tmp_path)])
+    assert refused.exit_code == 2
+    assert "frequency = 300: expected at most 250" in refused.stderr
 
 
 def test_the_closed_form_without_a_spring_leaves_the_place_out() -> None:
@@ -226,3 +243,84 @@ def test_the_closed_form_without_a_spring_leaves_the_place_out() -> None:
     assert theory.closed_loop(loop=free).shape == (4, 4)
     # The nominal coasts with D_n/(M_n + (the 6 kg behind it)/K): slower than D_n/M_n alone would have it.
     assert -0.1 < theory.growth_rate(loop=free) < -0.05
+
+
+def any_loop(random: np.random.Generator) -> tuple[Loop, Hand, int]:
+    """A loop over some decades of everything, its hand up to 150 samples late, in whole samples or between them."""
+    T, M = 10.0 ** random.uniform(-4.0, -2.0), 10.0 ** random.uniform(0.0, 2.0)
+    at = Loop(
+        M=M,
+        M_n=M * 10.0 ** random.uniform(-2.0, 1.0),
+        D_n=M * 10.0 ** random.uniform(-2.0, 1.5),
+        K=M / T * 10.0 ** random.uniform(-4.0, 0.5),
+        K_P=10.0 ** random.uniform(-0.5, 2.0),
+        alpha=float(random.choice([0.0, 1.0, 10.0])),
+        T=T,
+        substep=float(random.choice([0.0, T / 10.0])),
+    )
+    k_h, b_h = random.choice([0.0, 1.0], 2) * [M * 10.0 ** random.uniform(-1.0, 4.0), 10.0 ** random.uniform(-1.0, 2.0)]
+    late = float(random.choice([np.floor(random.uniform(1.0, 150.0)), random.uniform(1.0, 150.0)]))
+    return at, Hand(k_h=float(k_h or not b_h), b_h=float(b_h), delay=late * T), int(random.integers(0, 2))
+
+
+def least_damping(s: np.ndarray) -> float | None:
+    swinging = s[np.abs(s.imag) > 1e-6 * np.abs(s)]
+    return float(np.min(-swinging.real / np.abs(swinging))) if len(swinging) else None
+
+
+@pytest.mark.parametrize("seed", range(100))
+def test_nyquist_counts_and_finds_what_the_eigenvalues_of_the_matrix_are(seed: int) -> None:
+    at, hand, delay = any_loop(np.random.default_rng(seed))
+    eigenvalues = np.linalg.eigvals(theory.closed_loop(loop=at, hand=hand, delay=delay)).astype(complex)
+    late = nyquist.Late.of(loop=at, hand=hand, delay=delay)
+    # At the rule's circle, and where some of the roots are inside and some outside.
+    for size in (1.0 + region.ON_THE_CIRCLE, 1.0001, 1.02, math.exp(-0.5 / late.m), math.exp(-2.0 / late.m)):
+        assert late.growing(size=size) == (np.abs(eigenvalues) > size).sum()
+    # The eigenvalues of a matrix of 150 are known to some 1e-9.
+    assert late.growth() == pytest.approx(math.log(np.max(np.abs(eigenvalues))), abs=1e-8)
+    mine, theirs = least_damping(late.roots()), least_damping(np.log(eigenvalues[np.abs(eigenvalues) > 1e-12]))
+    assert mine == (None if theirs is None else pytest.approx(theirs, abs=1e-6))
+
+
+def test_a_hand_a_second_late_is_judged_without_a_matrix_of_its_samples(monkeypatch: pytest.MonkeyPatch) -> None:
+    # 0.8 s are 200, 400, 800 samples: the limit tends to that of the continuous loop, to first order in T. And 80000.
+    sizes: list[int] = []
+    matrix = theory.closed_loop
+
+    def seen(**arguments: object) -> np.ndarray:
+        sizes.append(len(answer := matrix(**arguments)))  # type: ignore[arg-type]
+        return answer
+
+    monkeypatch.setattr(theory, "closed_loop", seen)
+    gains = replace(ARM_GAINS, D_n=60.0, K=500.0)
+    limits = []
+    for T in (4e-3, 2e-3, 1e-3, 1e-5):
+        machine = Machine(T=T, M_min=20.0, M_max=20.0, k_h=10.0, b_h=5.0, hand_delay=0.8)
+        limits.append(region.hand_limit(machine=machine, gains=gains, M=20.0))
+        at = at_mass(machine=machine, gains=gains, M=20.0, frequency=0.4)
+        assert at.stable == (limits[-1] > 10.0)
+    assert 1.0 < limits[2] < 1e3
+    assert limits[0] - limits[1] == pytest.approx(2.0 * (limits[1] - limits[2]), rel=0.05)
+    assert limits[3] == pytest.approx(limits[2], rel=0.01)
+    assert max(sizes, default=0) <= 6
+
+
+def test_the_map_s_boundary_runs_where_it_is() -> None:
+    x, y = np.geomspace(0.01, 100.0, 24), np.geomspace(0.1, 1000.0, 24)
+    field = chart.distance(stable=lambda a, b: a * b < 7.0, x=x, y=y)
+    step = math.log(x[1] / x[0])
+    far = np.log(7.0 / np.outer(y, x)) / step  # along a row or a column, in steps of the map
+    assert (np.sign(field) == np.sign(far)).all()
+    near = np.abs(far) < 1.0
+    assert near.sum() > 40
+    assert np.abs(field - far)[near].max() <= 0.5**chart.HALVES
+
+
+def test_a_single_mass_has_lines_to_look_at(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    drawn = []
+    monkeypatch.setattr(chart.Canvas, "savefig", lambda canvas, *_, **__: drawn.append(canvas))
+    answer = guide(machine=replace(TESTBED, k_h=20.0), gains=replace(TESTBED_GAINS, M_n=1.0), frequency=0.4)
+    chart.draw(guide=answer, path=tmp_path / "tune.png")
+    lines = [line for line in drawn[0].axes[0].lines if "est K" in str(line.get_label())]
+    assert len(lines) == 3  # largest without and with a hand, smallest with it
+    assert all(np.ptp(line.get_xdata()) > 0.0 and np.isfinite(line.get_ydata()).all() for line in lines)

@@ -4,13 +4,13 @@ use crate::build::SMALLEST;
 use crate::dist;
 use crate::process::{Outcome, answer, build, cargo, program, root, run};
 use crate::schedule::{self, Stage};
-use crate::venv::{Venv, check_machine};
+use crate::venv::{Packages, Venv, check_machine};
 use std::process::Command;
 
 /// The stages of `cargo xtask test`. Where two may begin, the first one does.
 static TEST: [Stage; 14] = [
     stage("fmt", &[], || run(&mut cargo(["fmt", "--all", "--check"]))),
-    stage("venv", &[], || Venv::ready().map(|_| ())),
+    stage("venv", &[], || Venv::ready(Packages::Test).map(|_| ())),
     // What the archives are written by.
     stage("catalogue", &[], || build("catalogue")),
     stage("fmu", &["catalogue"], || crate::fmu::build_all(false)),
@@ -23,7 +23,12 @@ static TEST: [Stage; 14] = [
         crate::law::build_all(false, Some(&root().join("target/law/installed")))
     }),
     stage("pytest", &["fmu", "law", "tests built"], || {
-        run(&mut Venv::ready()?.command(["-m", "pytest", "tests/system", "--durations=20"]))
+        run(&mut Venv::ready(Packages::Test)?.command([
+            "-m",
+            "pytest",
+            "tests/system",
+            "--durations=20",
+        ]))
     }),
     stage("cargo test", &["fmu", "law", "tests built"], || {
         with_libclang(&mut cargo(TESTS))
@@ -93,7 +98,7 @@ fn all() -> Vec<&'static Stage> {
 fn with_libclang(command: &mut Command) -> Outcome {
     let headers = answer(&mut program("cc", ["-print-file-name=include"])).unwrap_or_default();
     run(command
-        .env("LIBCLANG_PATH", Venv::ready()?.libclang()?)
+        .env("LIBCLANG_PATH", Venv::ready(Packages::Test)?.libclang()?)
         .env("BINDGEN_EXTRA_CLANG_ARGS", format!("-I{headers}")))
 }
 
@@ -108,7 +113,7 @@ fn rustdoc() -> Outcome {
 }
 
 fn python() -> Outcome {
-    let venv = Venv::ready()?;
+    let venv = Venv::ready(Packages::Test)?;
     let ruff = |arguments: &[&str]| {
         let mut ruff = venv.command(["-m", "ruff"]);
         run(ruff.args(arguments).args(["harness", "tests/system"]))
@@ -123,7 +128,7 @@ fn python() -> Outcome {
 
 fn validate() -> Outcome {
     let names = fmus::NAMES.iter();
-    run(Venv::ready()?
+    run(Venv::ready(Packages::Test)?
         .exo(["validate", "--strict"])
         .args(names.map(|name| format!("target/fmu/{name}.fmu")))
         .arg(format!("target/fmu/test/{SMALLEST}.fmu")))

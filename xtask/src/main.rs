@@ -13,7 +13,7 @@
 //! | `cargo xtask fuzz [--calls N] [--seed S] [--fmu NAME]` | random calls on the built FMUs | a failing sequence, printed |
 //! | `cargo xtask law [--prefix DIR]` | the C library | `target/law/{f64,f32}`, and an installation in DIR |
 //! | `cargo xtask bench` | how fast the FMUs and the harness are | |
-//! | `cargo xtask venv` | the Python environment of the others | `.venv` |
+//! | `cargo xtask venv [--tests]` | the Python environment of the others | `.venv` |
 //!
 //! | module | what |
 //! |---|---|
@@ -128,7 +128,11 @@ enum Command {
         fmu_dir: Option<std::path::PathBuf>,
     },
     /// Create the Python environment .venv from harness/requirements.lock
-    Venv,
+    Venv {
+        /// With what only tests, lints and benches need
+        #[arg(long)]
+        tests: bool,
+    },
 }
 
 fn main() -> ExitCode {
@@ -151,7 +155,7 @@ fn main() -> ExitCode {
             None if !instructions && !bless => stages::bench(),
             folder => stages::instructions(folder, bless),
         },
-        Command::Venv => venv::Venv::ready().map(|_| ()),
+        Command::Venv { tests } => stages::venv(tests),
     };
     match outcome {
         Ok(()) => ExitCode::SUCCESS,

@@ -2,7 +2,7 @@
 //! [`checks`](crate::checks).
 
 use crate::process::{Outcome, cargo, root, run};
-use crate::venv::Venv;
+use crate::venv::{Packages, Venv};
 use std::path::PathBuf;
 use std::time::Instant;
 
@@ -16,21 +16,27 @@ fn stage<T>(name: &str, work: impl FnOnce() -> Outcome<T>) -> Outcome<T> {
 }
 
 /// What the harness works with: the Python environment and the FMUs.
-fn harness() -> Outcome<Venv> {
-    let venv = stage("venv", Venv::ready)?;
+fn harness(packages: Packages) -> Outcome<Venv> {
+    let venv = stage("venv", || Venv::ready(packages))?;
     stage("fmu", || crate::fmu::build_all(false))?;
     Ok(venv)
 }
 
 /// `cargo xtask ssp`
 pub fn ssp() -> Outcome {
-    let venv = harness()?;
+    let venv = harness(Packages::Run)?;
     stage("exo ssp", || run(&mut venv.exo(["ssp"])))
+}
+
+/// `cargo xtask venv`
+pub fn venv(tests: bool) -> Outcome {
+    let packages = if tests { Packages::Test } else { Packages::Run };
+    Venv::ready(packages).map(|_| ())
 }
 
 /// `cargo xtask reproduce`
 pub fn reproduce() -> Outcome {
-    let venv = harness()?;
+    let venv = harness(Packages::Run)?;
     let report = root().join("results/report.html");
     // A failed verdict is an error, yet leaves its report; an old report is not this run's.
     let _ = std::fs::remove_file(&report);
@@ -63,7 +69,7 @@ fn fmus() -> PathBuf {
 
 /// `cargo xtask bench`
 pub fn bench() -> Outcome {
-    let venv = harness()?;
+    let venv = harness(Packages::Test)?;
     stage("instructions", || crate::instructions::check(&fmus()))?;
     stage("cargo bench", || {
         run(&mut cargo(["bench", "--locked", "--package", "abi"]))

@@ -17,10 +17,11 @@ from rich.table import Table
 
 from exo import benchmark as bench
 from exo import compare as comparison
-from exo import experiment, report, results, scenario, sensitivity, tool, validate
+from exo import experiment, kept, readings, report, results, scenario, sensitivity, tool, validate
 from exo.errors import ExoError, FmuError, ScenarioError
 from exo.experiment import Experiment
 from exo.fmu import Archive, find_fmu_dir
+from exo.kept import ALL, NONE
 from exo.systems import closed, container, ssp
 from exo.systems import system as systems
 from exo.systems.system import RECIPES
@@ -36,6 +37,10 @@ Out = Annotated[Path, typer.Option("--out", help="Folder for the results.")]
 FmuDir = Annotated[
     Path | None, typer.Option("--fmu-dir", help="Folder of the archives; else $EXO_FMU_DIR or target/fmu.")
 ]
+Signals = Annotated[
+    str, typer.Option(metavar="all|none|SCENARIO,…", help="Whose signals are written, every tick as Parquet.")
+]
+Csv = Annotated[bool, typer.Option("--csv", help="Write signals and the figures' data as CSV, too.")]
 #: Findings of one rule that `exo validate` prints.
 SHOWN = 5
 COLORS = {"pass": "green", "fail": "bold red", "info": "blue"}
@@ -65,24 +70,29 @@ def list_scenarios() -> None:
 @app.command()
 def run(
     names: Annotated[list[str], typer.Argument(metavar="SCENARIO…", help="Scenario ids or .toml files.")],
+    *,
     settings: Annotated[
         list[str] | None, typer.Option("--set", metavar="NAME=VALUE", help="Overrides a parameter in all cases.")
     ] = None,
+    signals: Signals = ALL,
+    csv: Csv = False,
     out: Out = Path("results"),
     fmu_dir: FmuDir = None,
 ) -> None:
     """Runs scenarios; exit code 1 when a verdict fails."""
     with sentences():
-        experiments = _run_all(names=names, overrides=parse_settings(settings or []), out=out, fmu_dir=fmu_dir)
+        experiments = _run_all(
+            names=names, overrides=parse_settings(settings or []), signals=signals, csv=csv, out=out, fmu_dir=fmu_dir
+        )
     _finish(experiments)
 
 
 @app.command()
-def reproduce(out: Out = Path("results"), fmu_dir: FmuDir = None) -> None:
+def reproduce(signals: Signals = NONE, csv: Csv = False, out: Out = Path("results"), fmu_dir: FmuDir = None) -> None:
     """Runs all scenarios and writes report.html."""
     with sentences():
         names = list(scenario.built_in())
-        experiments = _run_all(names=names, overrides={}, out=out, fmu_dir=fmu_dir)
+        experiments = _run_all(names=names, overrides={}, signals=signals, csv=csv, out=out, fmu_dir=fmu_dir)
         path = report.write(out=out, scenarios=names)
     console.print(f"report: {path}", markup=False)
     _finish(experiments)
@@ -201,13 +211,15 @@ def measure_sensitivity(
 
 @app.command("identify-tool")
 def identify_tool(
-    readings: Annotated[Path, typer.Argument(help="CSV: q[1..3], ft.force[1..3], ft.torque[1..3], a row a reading.")],
+    file: Annotated[
+        Path, typer.Argument(metavar="READINGS", help="CSV: q[1..3], ft.force[1..3], ft.torque[1..3], a row a reading.")
+    ],
     mount: Annotated[str, typer.Option(help="ft.mount of the sensor: roll,pitch,yaw in rad.")] = "0,0,0",
 ) -> None:
     """Prints mass and centre of gravity of what hangs on the force sensor, from readings at rest in several poses."""
     with sentences():
         angles = parse_angles(mount)
-        q, force, torque = tool.read(readings)
+        q, force, torque = readings.read(file)
         found = tool.identify(R=tool.orientation(q=q, mount=angles), force=force, torque=torque)
 
     def numbers(values: Iterable[float]) -> str:
@@ -288,6 +300,7 @@ def tune(
             gains = replace(gains, K=tuning.recommended_gain(machine=machine, gains=gains) or gains.K)
         answer = tuning.guide(machine=machine, gains=gains, frequency=frequency)
         written = show.write(guide=answer, out=out)
+    console.print(show.verdict(answer), markup=False)
     console.print(show.by_mass(answer))
     console.print(show.LEGEND.format(frequency=frequency), markup=False)
     console.print(show.summary(answer))
@@ -312,9 +325,12 @@ def progress_bar() -> Progress:
     return Progress(*columns, console=console, transient=True, disable=not console.is_terminal)
 
 
-def _run_all(*, names: list[str], overrides: dict[str, str], out: Path, fmu_dir: Path | None) -> list[Experiment]:
+def _run_all(
+    *, names: list[str], overrides: dict[str, str], signals: str, csv: bool, out: Path, fmu_dir: Path | None
+) -> list[Experiment]:
     folder = find_fmu_dir(fmu_dir)
     scenarios = [scenario.load(name) for name in names]
+    written = kept.parse(signals=signals, csv=csv, scenarios=[data.id for data in scenarios])
     experiments = []
     with progress_bar() as progress:
         for data in scenarios:
@@ -325,7 +341,7 @@ def _run_all(*, names: list[str], overrides: dict[str, str], out: Path, fmu_dir:
                 overrides=overrides,
                 on_case=lambda _case, task=task: progress.advance(task),  # type: ignore[misc]
             )
-            results.write(experiment=done, out=out)
+            results.write(experiment=done, out=out, kept=written)
             progress.remove_task(task)
             experiments.append(done)
             _print(done)

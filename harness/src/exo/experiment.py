@@ -15,7 +15,7 @@ from exo.paper import lookup
 from exo.recording import Recording
 from exo.scenario import Case, Scenario, Value
 from exo.simulate import Plan, plan, simulate
-from exo.verdict import Result, judge
+from exo.verdict import Result, beside_the_paper, judge
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -106,6 +106,9 @@ def _check_functions(scenario: Scenario) -> None:
         metrics.check(function=metric.function, arguments=metric.arguments, owner=owner, components=scenario.components)
         for key in metric.paper.values():
             lookup(key)
+    for ratio in scenario.ratios:
+        if ratio.paper:
+            lookup(ratio.paper)
 
 
 def _parse_overrides(
@@ -149,6 +152,13 @@ def evaluate(*, scenario: Scenario, recordings: Mapping[str, Recording]) -> tupl
                 raise ScenarioError(f"{scenario.id}: ratio {ratio.id}: no metric {name}{close_matches(name, results)}")
         upper, lower = (results[name].value for name in ratio.of)
         results[ratio.id] = judge(
-            metric=ratio.id, title=ratio.title, value=upper / lower, unit="1", check=ratio.check, source=ratio.source
+            metric=ratio.id,
+            title=ratio.title,
+            value=upper / lower,
+            unit="1",
+            check=ratio.check,
+            source=ratio.source,
+            paper=lookup(ratio.paper) if ratio.paper else None,
         )
-    return tuple(results.values())
+    beside = [beside_the_paper(result) for result in results.values() if result.paper and result.paper.is_fair]
+    return (*results.values(), *beside)

@@ -10,13 +10,29 @@ from exo.errors import ScenarioError, close_matches
 
 @dataclass(frozen=True, kw_only=True)
 class Published:
-    """A number as printed; `rounding` is half a unit of its last digit."""
+    """A number as printed; `rounding` is half a unit of its last digit.
+
+    `because`: why a number measured here may be off by more. `within` or `relative`: by how much, where the comparison
+    is fair.
+    """
 
     label: str
     quantity: str
     value: float
     unit: str
     rounding: float
+    because: str
+    within: float | None = None
+    relative: float | None = None
+
+    @property
+    def is_fair(self) -> bool:
+        """Whether a number measured here is judged by this one."""
+        return self.within is not None or self.relative is not None
+
+    def explains(self, value: float) -> str:
+        """Why `value` is off by more than the rounding; empty if it is not."""
+        return "" if abs(value - self.value) <= self.rounding else self.because
 
 
 @cache

@@ -1,6 +1,6 @@
 """Figures, and the numbers in them as tables with the same labels."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -12,6 +12,7 @@ from matplotlib.figure import Figure as Canvas
 
 from exo import poses, theory
 from exo.errors import ScenarioError
+from exo.looks import BLACK, BLUE, CYCLE, MARK, VERMILLION, Look, looks
 from exo.metrics.basic import window
 from exo.metrics.loops import loop_of
 from exo.metrics.response import measured_response
@@ -33,10 +34,22 @@ STYLE: dict[str, Any] = {
     "legend.edgecolor": "none",
     "legend.fontsize": 8.0,
     "savefig.dpi": 130,
-    "axes.prop_cycle": rcsetup.cycler(color=["#1f4e9c", "#c0392b", "#2e8b57", "#8e6c1d", "#6a3d9a"]),
+    "axes.prop_cycle": rcsetup.cycler(color=list(CYCLE)),
 }
-#: Of the values 0, 1, … behind a panel: from nothing to a fault.
-BAND_COLORS = ("#e8e8e8", "#c6dbef", "#ccebc5", "#decbe4", "#fed9a6", "#ffffcc", "#fbb4ae")
+#: Of the values 0, 1, … behind a panel, from nothing to a fault: grey, blue, orange, and hatches for those that stop.
+BANDS = (
+    ("#f7f7f7", ""),
+    ("#e0e0e0", ""),
+    ("#dceefa", ""),
+    ("#a9d4f0", ""),
+    ("#fde6bf", ""),
+    ("#f8c98b", ".."),
+    ("#e3a48f", "//"),
+)
+#: Of a legend: width of a letter, and of what stands before the letters.
+INCH_A_LETTER, INCH_A_HANDLE = 0.066, 0.52
+#: Height of a row of a legend.
+INCH_A_ROW = 0.18
 #: A line needs no more points than a picture has columns, twice over; data files keep every tick.
 PLOTTED_POINTS = 4000
 
@@ -58,36 +71,73 @@ def draw(*, figure: Figure, recordings: Mapping[str, Recording], path: Path) -> 
 def _panels(canvas: Canvas, figure: Figure, recordings: Mapping[str, Recording]) -> None:
     rows = -(-len(figure.panels) // figure.columns)
     width = {1: 7.0, 2: 9.5}.get(figure.columns, 3.2 * figure.columns)
-    canvas.set_size_inches(width, 2.25 * rows + 0.6)
     grid = canvas.subplots(rows, figure.columns, squeeze=False)
-    for position, axes in enumerate(grid.flat):
-        if position >= len(figure.panels):
-            axes.set_visible(False)
-            continue
-        _panel(axes, figure.panels[position], recordings, topmost=position < figure.columns)
+    found = looks(figure)
+    drawn = []
+    for position, (axes, panel) in enumerate(zip(grid.flat, figure.panels, strict=False)):
+        beside = figure.panels[position + 1 : position + 2] if (position + 1) % figure.columns else ()
+        told_there = bool(beside) and (beside[0].marks, beside[0].mark_label) == (panel.marks, panel.mark_label)
+        lines = _panel(axes, panel, [found[position, j] for j in range(len(panel.curves))], recordings)
+        _marks(axes, panel, labelled=not told_there)
+        if panel.bands:
+            _bands(axes, panel.bands, recordings[panel.bands.case], labelled=position < figure.columns)
+        if len(lines) > 1 or not all(curve.label in panel.y_label for curve in panel.curves):
+            drawn.append((axes, lines))
         if position + figure.columns >= len(figure.panels):
             axes.set_xlabel(figure.x_label)
+    for axes in grid.flat[len(figure.panels) :]:
+        axes.set_visible(False)
+    legends = {tuple(line.get_label() for line in lines) for _, lines in drawn}
+    if len(drawn) > 1 and len(legends) == 1:
+        lines = drawn[0][1]
+        canvas.legend(handles=lines, loc="outside lower center", ncols=columns(lines, width=width))
+        highest = 0
+    else:
+        highest = max((above(axes, lines, width=width / figure.columns) for axes, lines in drawn), default=0)
+    canvas.set_size_inches(width, (2.25 + INCH_A_ROW * highest) * rows + 0.6)
 
 
-def _panel(axes: Any, panel: Panel, recordings: Mapping[str, Recording], *, topmost: bool) -> None:
-    for curve in panel.curves:
+def _panel(axes: Any, panel: Panel, found: Sequence[Look], recordings: Mapping[str, Recording]) -> list[Any]:
+    lines = []
+    for curve, look in zip(panel.curves, found, strict=True):
         run = recordings[curve.case]
         left, right = panel.x_range or (0.0, run.time[-1])
         shown = window(run.time, after=left, before=right)
         time, values = _thinned(run.time[shown], np.asarray(run[curve.column][shown], dtype=np.float64))
-        look = {"color": curve.color} if curve.color else {}
-        axes.plot(time, values, "--" if curve.dashed else "-", label=curve.label, **look)
+        lines += axes.plot(time, values, label=curve.label, **look.style)
         axes.set_xlim(left, right)
-    if panel.bands:
-        _bands(axes, panel.bands, recordings[panel.bands.case], labelled=topmost)
-    for mark in panel.marks:
-        axes.axhline(mark, color="#555555", linestyle=":", linewidth=0.9)
     axes.set_ylabel(panel.y_label)
     axes.set_title(panel.title)
     if panel.y_range:
         axes.set_ylim(*panel.y_range)
-    if len(panel.curves) > 1:
-        axes.legend(loc="best", ncols=min(len(panel.curves), 3))
+    return lines
+
+
+def _marks(axes: Any, panel: Panel, *, labelled: bool) -> None:
+    """The marks; `labelled`: with what they are on the right of the axes, where they cover nothing."""
+    for mark in panel.marks:
+        axes.axhline(mark, zorder=1.5, **MARK)
+        if labelled:
+            text = f"{panel.mark_label} {mark:g}".strip().replace("-", "−")
+            place = {"xy": (1.0, mark), "xycoords": axes.get_yaxis_transform(), "va": "center", "ha": "left"}
+            axes.annotate(text, xytext=(3, 0), textcoords="offset points", fontsize=7.5, color=MARK["color"], **place)
+
+
+def columns(lines: Sequence[Any], *, width: float) -> int:
+    """How many entries of a legend fit beside each other on `width` (inch)."""
+    longest = max(len(str(line.get_label())) for line in lines)
+    return max(1, min(len(lines), int(width / (INCH_A_LETTER * longest + INCH_A_HANDLE))))
+
+
+def above(axes: Any, lines: Sequence[Any], *, width: float) -> int:
+    """A legend above the axes, where it covers nothing, and their title above it; answers its rows."""
+    across = columns(lines, width=0.9 * width)
+    rows = -(-len(lines) // across)
+    place = {"loc": "lower center", "bbox_to_anchor": (0.5, 1.0), "borderaxespad": 0.1}
+    axes.legend(handles=lines, ncols=across, frameon=False, **place)
+    if axes.get_title():
+        axes.set_title(axes.get_title(), pad=72.0 * INCH_A_ROW * rows + 7.0)
+    return rows
 
 
 def _bands(axes: Any, bands: Bands, run: Recording, *, labelled: bool) -> None:
@@ -98,8 +148,9 @@ def _bands(axes: Any, bands: Bands, run: Recording, *, labelled: bool) -> None:
     shown: dict[int, Any] = {}
     for start, end in zip(starts, ends, strict=True):
         value = int(values[start])
+        color, hatch = BANDS[value % len(BANDS)]
         shown[value] = axes.axvspan(
-            run.time[start], end, color=BAND_COLORS[value % len(BAND_COLORS)], linewidth=0.0, zorder=0
+            run.time[start], end, facecolor=color, edgecolor="#ffffff", hatch=hatch, linewidth=0.0, zorder=0
         )
     if not labelled:
         return
@@ -117,13 +168,15 @@ def _bands(axes: Any, bands: Bands, run: Recording, *, labelled: bool) -> None:
 
 
 def _thinned(time: Any, values: Any) -> tuple[Any, Any]:
-    """Smallest and largest value of each bin, so that a thinned line shows the same peaks."""
+    """The smallest and the largest value of each bin in the order in which they come: a thinned line shows the same
+    peaks and never runs back, which would fill the gaps of its dash."""
     if len(time) <= PLOTTED_POINTS:
         return time, values
     size = -(-2 * len(time) // PLOTTED_POINTS)
-    starts = np.arange(0, len(time), size)
-    lows, highs = np.minimum.reduceat(values, starts), np.maximum.reduceat(values, starts)
-    return np.repeat(time[starts], 2), np.column_stack([lows, highs]).reshape(-1)
+    bins = np.pad(values, (0, -len(values) % size), mode="edge").reshape(-1, size)
+    extremes = np.sort(np.column_stack([bins.argmin(axis=1), bins.argmax(axis=1)]), axis=1)
+    picked = np.minimum((extremes + size * np.arange(len(bins))[:, None]).ravel(), len(time) - 1)
+    return time[picked], values[picked]
 
 
 def data(*, figure: Figure, recordings: Mapping[str, Recording]) -> pa.Table:
@@ -132,17 +185,22 @@ def data(*, figure: Figure, recordings: Mapping[str, Recording]) -> pa.Table:
         return pa.table(response_table(recordings))
     if figure.poses:
         return pa.table(poses.table(poses=figure.poses, run=recordings[figure.poses.case]))
-    columns: dict[str, Any] = {}
+    table: dict[str, Any] = {}
     for panel in figure.panels:
         for curve in panel.curves:
             run = recordings[curve.case]
-            if columns and len(columns[figure.x_label]) != len(run.time):
+            if table and len(table[figure.x_label]) != len(run.time):
                 raise ScenarioError(f"figure {figure.id}: its curves must have one duration")
-            columns[figure.x_label] = run.time
+            table[figure.x_label] = run.time
             name = ", ".join(part for part in (panel.title, curve.label or curve.column) if part)
             unit = run.units.get(curve.column, "")
-            columns[f"{name} [{unit or '1'}]"] = run[curve.column]
-    return pa.table(columns)
+            table[f"{name} [{printed(unit)}]"] = run[curve.column]
+    return pa.table(table)
+
+
+def printed(unit: str) -> str:
+    """A unit as people write it: FMI's `N.m` is N·m, and what has none is 1."""
+    return unit.replace(".", "·") or "1"
 
 
 def response_table(recordings: Mapping[str, Recording]) -> dict[str, list[float]]:
@@ -173,15 +231,16 @@ def _frequency_response(canvas: Canvas, recordings: Mapping[str, Recording]) -> 
     run = next(iter(recordings.values()))
     loop = loop_of(run, controller="controller", plant="plant")
     omega = np.geomspace(0.15, 25.0, 200)
-    for name, look in (("continuous", "-"), ("sampled", "--")):
+    for name, color, look in (("continuous", BLUE, "-"), ("sampled", VERMILLION, "--")):
         curve = np.array([theory.RESPONSES[name](loop=loop, omega=w) for w in omega])
-        magnitude.loglog(omega, np.abs(curve), look, label=f"{name}, closed form")
-        phase.semilogx(omega, np.angle(curve), look)
+        magnitude.loglog(omega, np.abs(curve), look, color=color, label=f"{name}, closed form")
+        phase.semilogx(omega, np.angle(curve), look, color=color)
     measured = list(response_table(recordings).values())
-    magnitude.loglog(measured[0], measured[1], "ko", markersize=4, label="measured on the FMUs")
-    phase.semilogx(measured[0], measured[2], "ko", markersize=4)
-    magnitude.loglog(omega, 1.0 / np.abs(loop.M_n * 1j * omega + loop.D_n), ":", label=r"$1/(M_n s + D_n)$")
+    magnitude.loglog(measured[0], measured[1], "o", color=BLACK, markersize=4, label="measured on the FMUs")
+    phase.semilogx(measured[0], measured[2], "o", color=BLACK, markersize=4)
+    nominal = 1.0 / np.abs(loop.M_n * 1j * omega + loop.D_n)
+    magnitude.loglog(omega, nominal, ":", color="#444444", label=r"$1/(M_n s + D_n)$")
     magnitude.set_ylabel(r"$|\dot{Q}/T_H|$ [m/(N·s)]")
     phase.set_ylabel("phase [rad]")
     phase.set_xlabel("ω [rad/s]")
-    magnitude.legend()
+    above(magnitude, magnitude.get_lines(), width=7.0)

@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 
 from exo.errors import ScenarioError
+from exo.looks import BLACK, BLUE, ORANGE, VERMILLION
 from exo.recording import Recording
 from exo.scenario import Poses
 
@@ -54,26 +55,30 @@ def draw(*, canvas: Any, poses: Poses, run: Recording) -> None:
     """One pair of axes a pose: links, joints, handle, pad, table, and the payload where it hangs."""
     columns = table(poses=poses, run=run)
     height = run.parameter(f"{poses.plant}.table.z")
-    canvas.set_size_inches(2.5 * len(poses.times), 3.3)
+    canvas.set_size_inches(2.5 * len(poses.times), 3.6)
     grid = canvas.subplots(1, len(poses.times), sharex=True, sharey=True, squeeze=False)
     for i, axes in enumerate(grid.flat):
         _one(axes, {name: column[i] for name, column in columns.items()}, height)
     grid.flat[0].set_ylabel("z [m]")
+    # The payload is not there in every pose.
+    named = {str(a.get_label()): a for axes in grid.flat for a in axes.get_legend_handles_labels()[0]}
+    canvas.legend(handles=list(named.values()), loc="outside lower center", ncols=len(named))
 
 
 def _one(axes: Any, at: Mapping[str, float], table_height: float) -> None:
     def line(names: tuple[str, ...], look: str, **more: Any) -> None:
         axes.plot([at[f"{n} r [m]"] for n in names], [at[f"{n} z [m]"] for n in names], look, **more)
 
-    axes.axhspan(table_height - 0.03, table_height, color="#c9b28a")
-    line(CHAIN, "-", color="#1f4e9c", linewidth=4.0, solid_capstyle="round")
+    line(CHAIN, "-", color=BLUE, linewidth=4.0, solid_capstyle="round", label="links")
     line(("handle", "pad"), "-", color="#5d6875", linewidth=2.0)
-    line(("shoulder", "elbow"), "o", color="white", markeredgecolor="#1f4e9c", markersize=6.0)
-    line(("handle",), "o", color="#c0392b", markersize=6.0)
+    line(("shoulder", "elbow"), "o", color="white", markeredgecolor=BLUE, markersize=6.0, label="joints")
+    line(("handle",), "D", color=VERMILLION, markersize=6.0, label="handle")
     r, z = at["pad r [m]"], at["pad z [m]"]
-    axes.plot([r - 0.03, r + 0.03], [z, z], color="#1d2530", linewidth=3.0)
+    axes.plot([r - 0.03, r + 0.03], [z, z], color=BLACK, linewidth=3.0, label="pad")
     if at["held"]:
-        axes.fill([r - 0.09, r + 0.09, r + 0.09, r - 0.09], [z, z, z - 0.025, z - 0.025], color="#8e6c1d")
+        corners = [r - 0.09, r + 0.09, r + 0.09, r - 0.09], [z, z, z - 0.025, z - 0.025]
+        axes.fill(*corners, facecolor=ORANGE, edgecolor=BLACK, linewidth=0.6, hatch="////", zorder=3, label="payload")
+    axes.axhspan(table_height - 0.03, table_height, color="#bbbbbb", label="table")
     axes.set_title(f"t = {at['time [s]']:g} s")
     axes.set_aspect("equal")
     axes.set_xlim(-0.08, 0.72)

@@ -77,11 +77,14 @@ class Recording:
         return pa.table([pa.array(column) for column in columns.values()], schema=pa.schema(fields))
 
 
-def write(table: pa.Table, path: Path) -> None:
-    """`<path>.parquet` and `<path>.csv`; both keep every bit of a number."""
+def write(table: pa.Table, path: Path, *, csv: bool = False) -> None:
+    """`<path>.parquet` and, if asked for, `<path>.csv`; both keep every bit of a number."""
     path.parent.mkdir(parents=True, exist_ok=True)
     pyarrow.parquet.write_table(table, f"{path}.parquet", compression="zstd")
-    pyarrow.csv.write_csv(table, f"{path}.csv")
+    if csv:
+        pyarrow.csv.write_csv(table, f"{path}.csv")
+    else:
+        Path(f"{path}.csv").unlink(missing_ok=True)  # of an earlier run
 
 
 def read(path: Path) -> dict[str, NDArray[Any]]:

@@ -11,6 +11,7 @@ from typing import Any
 import jinja2
 
 from exo.errors import ExoError
+from exo.paper import Published
 from exo.results import SCHEMA_ID
 from exo.scenario import Figure, load
 from exo.verdict import expectation
@@ -33,6 +34,7 @@ def write(*, out: Path, scenarios: list[str]) -> Path:
     )
     environment.filters["number"] = number
     environment.filters["expected"] = expected
+    environment.filters["off"] = off
     template = environment.from_string((resources.files("exo") / "report.html.jinja").read_text(encoding="utf-8"))
     sections = [_section(out, name) for name in scenarios]
     page = template.render(
@@ -61,6 +63,7 @@ def _section(out: Path, name: str) -> dict[str, Any]:
         "about": scenario.about.strip(),
         "document": document,
         "run": document["run"],
+        "signals": (folder / "signals").is_dir(),
         "counts": {v: verdicts.count(v) for v in ("pass", "fail", "info")},
         "pictures": [_picture(folder, figure) for figure in scenario.figures],
         "speed": min(case["real_time_factor"] for case in cases),
@@ -75,13 +78,20 @@ def _picture(folder: Path, figure: Figure) -> Picture:
         title=figure.title,
         label=figure.label,
         uri=f"data:image/png;base64,{image}",
-        data=f"{folder.name}/figures/{figure.id}.csv",
+        data=f"{folder.name}/figures/{figure.id}.parquet",
     )
 
 
 def number(value: float | None) -> str:
     """Five digits; an undefined number says so."""
     return "undefined" if value is None else f"{value:.5g}"
+
+
+def off(metric: dict[str, Any]) -> str:
+    """Why the number of an entry of metrics.json is off the paper's by more than its rounding, or nothing."""
+    if metric["paper"] is None or metric["value"] is None:
+        return ""
+    return Published(**metric["paper"]).explains(metric["value"])
 
 
 def expected(metric: dict[str, Any]) -> str:

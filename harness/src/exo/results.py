@@ -2,6 +2,7 @@
 
 import json
 import math
+import shutil
 from collections.abc import Sequence
 from importlib import resources
 from pathlib import Path
@@ -12,6 +13,7 @@ import jsonschema
 
 from exo import plots, recording
 from exo.experiment import Experiment
+from exo.kept import EVERYTHING, Kept
 
 SCHEMA_ID = "urn:exo:metrics:1"
 
@@ -37,17 +39,21 @@ def metrics_document(experiment: Experiment) -> dict[str, Any]:
     return checked
 
 
-def write(*, experiment: Experiment, out: Path) -> Path:
+def write(*, experiment: Experiment, out: Path, kept: Kept = EVERYTHING) -> Path:
     """Writes `<out>/<scenario>/` and returns it."""
     folder = out / experiment.scenario.id
     folder.mkdir(parents=True, exist_ok=True)
     text = json.dumps(metrics_document(experiment), indent=2, ensure_ascii=False)
     (folder / "metrics.json").write_text(text + "\n", encoding="utf-8")
-    for case, run in experiment.recordings.items():
-        recording.write(run.table(experiment.scenario.signals), folder / "signals" / case)
+    if kept.has_signals_of(experiment.scenario.id):
+        for case, run in experiment.recordings.items():
+            recording.write(run.table(experiment.scenario.signals), folder / "signals" / case, csv=kept.csv)
+    else:
+        shutil.rmtree(folder / "signals", ignore_errors=True)  # of an earlier run
     for figure in experiment.scenario.figures:
         plots.draw(figure=figure, recordings=experiment.recordings, path=folder / f"{figure.id}.png")
-        recording.write(plots.data(figure=figure, recordings=experiment.recordings), folder / "figures" / figure.id)
+        data = plots.data(figure=figure, recordings=experiment.recordings)
+        recording.write(data, folder / "figures" / figure.id, csv=kept.csv)
     return folder
 
 

@@ -141,6 +141,8 @@ class Ratio(Data):
     of: tuple[str, str]
     check: Check
     source: str
+    #: Key in paper.toml, or nothing.
+    paper: str = ""
 
 
 class Curve(Data):
@@ -170,8 +172,9 @@ class Panel(Data):
     curves: tuple[Curve, ...]
     y_range: tuple[float, float] | None = None
     x_range: tuple[float, float] | None = None
-    #: Dotted horizontal lines, for instance the wall or a limit.
+    #: Horizontal lines, and what they are: for instance the wall or a limit.
     marks: tuple[float, ...] = ()
+    mark_label: str = ""
     bands: Bands | None = None
 
 

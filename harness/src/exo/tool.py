@@ -11,7 +11,6 @@ all; the centre of gravity needs it to turn about a second axis, or to sweep an 
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,7 +22,10 @@ GRAVITY = (0.0, 0.0, -9.81)
 #: Least spread (standard deviation) of gravity's unit vector along the second direction in which it turns, as the
 #: sensor sees it: an arc of some 100°. Below it noise counts more than tenfold.
 LEAST_SPREAD = 0.1
-COLUMNS = [f"{name}[{i}]" for name in ("q", "ft.force", "ft.torque") for i in (1, 2, 3)]
+#: No tool's centre of gravity is farther from its sensor (m); torques in N·mm put it a thousand times too far.
+FARTHEST_COG = 1.0
+#: A mass that is not this many standard errors from 0 is not known.
+SIGNIFICANT = 3.0
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -48,11 +50,11 @@ def identify(*, R: Array, force: Array, torque: Array, gravity: Sequence[float] 
     each = np.tile(np.eye(3), (n, 1))
     x, P, force_rest = _least_squares(np.column_stack([gamma.reshape(-1), each]), force.reshape(-1))
     mass, mass_error, bias_force = float(x[0]), float(np.sqrt(P[0, 0])), x[1:]
-    if mass <= 0.0:
-        raise ExoError(f"the mass comes out as {mass:.4g} kg: are the forces those that act on the sensor's tool?")
+    _must_weigh(mass, mass_error)
     x, P, torque_rest = _least_squares(np.column_stack([_crossed_with(gamma), each]), torque.reshape(-1))
     cog = x[:3] / mass
     cog_error = np.sqrt(np.diag(P)[:3] + (cog * mass_error) ** 2) / mass
+    _must_be_near(cog, cog_error)
     return Tool(
         mass=mass,
         mass_error=mass_error,
@@ -71,11 +73,39 @@ def _must_turn(gamma: Array) -> None:
         raise ExoError("without gravity a tool has no weight: expected a gravity vector that is not zero")
     directions = gamma / length
     spread = np.linalg.svd(directions - directions.mean(axis=0), compute_uv=False) / np.sqrt(len(gamma))
-    if spread[1] < LEAST_SPREAD:
+    if spread[1] >= LEAST_SPREAD:
+        return
+    found = f"spread {spread[0]:.3f}, {spread[1]:.3f} along two directions, expected {LEAST_SPREAD} or more"
+    if spread[0] < LEAST_SPREAD:
         raise ExoError(
-            f"gravity hardly turns in the sensor's frame (spread {spread[0]:.3f}, {spread[1]:.3f} along two "
-            f"directions, expected {LEAST_SPREAD} or more): take readings in poses that "
-            "pitch and roll the sensor by 90° and more"
+            f"gravity hardly turns in the sensor's frame ({found}): yaw, q[1], does not turn it; take readings in "
+            "poses that pitch or roll the sensor by 100° and more"
+        )
+    raise ExoError(
+        f"the poses turn gravity about one axis only and not far enough ({found}): pitch on, to an arc of 100° and "
+        "more, or roll the sensor as well"
+    )
+
+
+def _must_weigh(mass: float, error: float) -> None:
+    if abs(mass) <= SIGNIFICANT * error:
+        raise ExoError(
+            f"the mass comes out as {mass:.4g} kg with a standard error of {error:.2g} kg: the forces do not follow "
+            "the poses, or the tool weighs nothing; expected readings at rest with nobody at the handle"
+        )
+    if mass < 0.0:
+        raise ExoError(
+            f"the mass comes out as {mass:.4g} kg: the forces are negated; expected ft.force as it acts on the "
+            "sensor's tool, pointing down at rest (or --mount is upside down)"
+        )
+
+
+def _must_be_near(cog: Array, error: Array) -> None:
+    distance = float(np.linalg.norm(cog))
+    if distance - SIGNIFICANT * float(np.linalg.norm(error)) > FARTHEST_COG:
+        raise ExoError(
+            f"the centre of gravity comes out {distance:.3g} m from the sensor, expected less than {FARTHEST_COG:g} m: "
+            "the torques are not in N·m (N·mm are a thousand times as many), or the forces not in N"
         )
 
 
@@ -112,22 +142,3 @@ def _turn(axis: int, angle: Array) -> Array:
     R[:, j, i] = np.sin(angle)
     R[:, i, j] = -np.sin(angle)
     return R
-
-
-def read(path: Path) -> tuple[Array, Array, Array]:
-    """Joint angles, forces and torques of a CSV file with a header; `controller.` may stand before a name."""
-    try:
-        table = np.genfromtxt(path, delimiter=",", names=None, dtype=str, autostrip=True, ndmin=2)
-    except (OSError, ValueError) as error:
-        raise ExoError(f"{path}: {error}") from error
-    header = [name.strip('"').removeprefix("controller.") for name in table[0]]
-    missing = [name for name in COLUMNS if name not in header]
-    if missing:
-        raise ExoError(f"{path}: expected the columns {', '.join(COLUMNS)}; missing: {', '.join(missing)}")
-    try:
-        values = table[1:, [header.index(name) for name in COLUMNS]].astype(float)
-    except ValueError as error:
-        raise ExoError(f"{path}: {error}") from error
-    if len(values) < 3 or not np.isfinite(values).all():
-        raise ExoError(f"{path}: {len(values)} readings, expected 3 or more of finite numbers")
-    return values[:, :3], values[:, 3:6], values[:, 6:]

@@ -56,6 +56,21 @@ def expectation(*, kind: str, expected: float | None, tolerance: float | None) -
     return "–"
 
 
+def beside_the_paper(result: Result) -> Result:
+    """The same number, judged by the one that the paper prints, where that is fair."""
+    paper = result.paper
+    if paper is None or not paper.is_fair:
+        raise ValueError(f"{result.id}: no fair comparison with the paper")
+    return judge(
+        metric=f"{result.id}/paper",
+        title=f"{result.title}, beside the paper",
+        value=result.value,
+        unit=result.unit,
+        check=Check(value=paper.value, within=paper.within, relative=paper.relative, because=paper.because),
+        source=f"{paper.label}: {paper.quantity}",
+    )
+
+
 def judge(
     *, metric: str, title: str, value: float, unit: str, check: Check, source: str, paper: Published | None = None
 ) -> Result:

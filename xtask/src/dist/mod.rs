@@ -32,7 +32,7 @@ use crate::component::Component;
 use crate::linked;
 use crate::process::{Failure, Outcome, at, root, run};
 use crate::schedule;
-use crate::venv::Venv;
+use crate::venv::{Packages, Venv};
 use compile::{Built, Plan};
 use host::{Host, Texts, compare, moves};
 use inspect::inspect;
@@ -190,7 +190,7 @@ fn merge(rows: &[Row]) -> Outcome {
 /// The coupled systems, with these archives in them.
 fn systems() -> Outcome {
     let folders = ["--fmu-dir", "target/dist", "--out", "target/dist/ssp"];
-    run(Venv::ready()?.exo(["ssp"]).args(folders))
+    run(Venv::ready(Packages::Run)?.exo(["ssp"]).args(folders))
 }
 
 /// Runs the host on every platform that can be run here; all must print what the first one prints.
@@ -267,7 +267,7 @@ fn built_twice(row: &Row, tools: &Toolchains) -> Outcome {
 
 /// Judges the archives with `exo validate`, which also loads and runs the library of this machine.
 fn validated(rows: &[Row]) -> Outcome {
-    let venv = Venv::ready()?;
+    let venv = Venv::ready(Packages::Run)?;
     let mut validate = venv.exo(["validate", "--strict"]);
     for row in rows {
         if let Some(built) = &row.built {

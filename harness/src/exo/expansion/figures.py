@@ -1,7 +1,8 @@
 """Figures: what all panels share stands once beside them, and panels and curves run over axes.
 
-A figure hands `x_range`, `y_range`, `y_label`, `marks`, `bands`, `curves` and what a curve can say down to its panels,
-a panel what a curve can say to its curves. Axes in a panel's `title` or `y_label` make panels, all others make curves.
+A figure hands `x_range`, `y_range`, `y_label`, `marks`, `mark_label`, `bands`, `curves` and what a curve can say down
+to its panels, a panel what a curve can say to its curves. Axes in a panel's `title` or `y_label` make panels, all
+others make curves.
 """
 
 from typing import Any
@@ -11,7 +12,19 @@ from exo.expansion.entries import Entry, over_axes
 
 OF_A_CURVE = ("case", "column", "label", "color", "dashed")
 #: `label` of a figure is the paper's label, `title` its own.
-SHARED = ("x_range", "y_range", "y_label", "marks", "bands", "curves", "case", "column", "color", "dashed")
+SHARED = (
+    "x_range",
+    "y_range",
+    "y_label",
+    "marks",
+    "mark_label",
+    "bands",
+    "curves",
+    "case",
+    "column",
+    "color",
+    "dashed",
+)
 
 
 def expand(data: Any, *, axes: Axes, where: str) -> list[Entry]:

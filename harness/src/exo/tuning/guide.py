@@ -2,10 +2,9 @@
 
 from dataclasses import dataclass, replace
 
-from exo import theory
 from exo.theory import Hand
 from exo.tuning import region
-from exo.tuning.machine import Gains, Machine, loop
+from exo.tuning.machine import LEAST, Gains, Machine, check
 from exo.tuning.region import Interval, Swing
 
 #: K T/M_min and M_n/M_min that the controllers warn of (fmu/admittance/src/advice.rs).
@@ -58,15 +57,27 @@ class Guide:
         return all(at.stable for at in self.masses)
 
     @property
+    def stable_gains(self) -> Interval | None:
+        """The K (N·s/m) that are stable at every mass, with the hand; None if there is none."""
+        held = [at.K_held for at in self.masses if at.K_held]
+        low, high = max((x.low for x in held), default=0.0), min((x.high for x in held), default=0.0)
+        return Interval(low, high) if len(held) == len(self.masses) and low < high else None
+
+    @property
     def gain_margin(self) -> float:
-        """By what factor K may rise at every mass, with the hand."""
+        """By what factor K may rise at every mass, with the hand; below 1 it must fall."""
         return min((at.K_held.high if at.K_held else 0.0) for at in self.masses) / self.gains.K
 
     @property
     def lowering_margin(self) -> float:
-        """By what factor K may fall at every mass, with the hand; infinite if it may fall to 0."""
+        """By what factor K may fall at every mass, with the hand; infinite: to 0, below 1: it must rise."""
         lowest = max((at.K_held.low if at.K_held else float("inf")) for at in self.masses)
         return self.gains.K / lowest if lowest else float("inf")
+
+    @property
+    def unstable(self) -> list[AtMass]:
+        """Where the gains are not stable, from the lightest mass to the heaviest."""
+        return [at for at in self.masses if not at.stable]
 
     @property
     def k_h_limit(self) -> float:
@@ -101,7 +112,7 @@ def at_mass(*, machine: Machine, gains: Gains, M: float, frequency: float) -> At
     return AtMass(
         M=M,
         stable=stable,
-        growth=theory.growth_rate(loop=loop(machine=machine, gains=gains, M=M), hand=machine.hand, delay=machine.delay),
+        growth=region.growth(machine=machine, gains=gains, M=M),
         K_free=region.gain_interval(machine=machine, gains=gains, M=M, hand=Hand()),
         K_held=region.gain_interval(machine=machine, gains=gains, M=M),
         k_h_limit=region.hand_limit(machine=machine, gains=gains, M=M),
@@ -116,8 +127,10 @@ def guide(*, machine: Machine, gains: Gains, frequency: float) -> Guide:
     """Judges the gains at every mass, and looks for better ones.
 
     M_n_smallest and D_n_smallest: each alone, the other gains as given, so that the loop holds `MARGIN` times the
-    hand's stiffness at every mass; 0 if nothing bounds it, None if it alone does not do.
+    hand's stiffness at every mass; 0 if nothing bounds it, None if it alone does not do. `frequency` in Hz, at
+    most that of a swing from tick to tick.
     """
+    check("frequency", frequency, least=LEAST, most=0.5 / machine.T)
 
     def holds(changed: Gains) -> bool:
         return region.stable_at_all(machine=machine, gains=changed, k_h_factor=MARGIN)

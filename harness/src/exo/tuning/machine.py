@@ -10,8 +10,11 @@ from exo.theory import Hand, Loop
 
 #: Masses between the lightest and the heaviest at which the loop is judged.
 MASSES = 9
-#: What may be 0; everything else must be greater.
+#: What may be 0. Everything else has the range of the controllers' parameters (`min` of modelDescription/*.xml).
 MAY_BE_ZERO = ("k_h", "b_h", "hand_delay", "substep", "D_n", "alpha", "delay")
+LEAST = 1e-6
+#: Beyond it no machine is meant, and the arithmetic would overflow.
+MOST = 1e12
 
 
 class Checked:
@@ -19,10 +22,16 @@ class Checked:
 
     def __post_init__(self) -> None:
         for field in fields(self):  # type: ignore[arg-type]
-            value, zero = getattr(self, field.name), field.name in MAY_BE_ZERO
-            if not math.isfinite(value) or value < 0.0 or (value == 0.0 and not zero):
-                expected = "not less than 0" if zero else "greater than 0"
-                raise ExoError(f"{field.name} = {value:g}: expected a finite value {expected}")
+            least = 0.0 if field.name in MAY_BE_ZERO else LEAST
+            check(field.name, getattr(self, field.name), least=least)
+
+
+def check(name: str, value: float, *, least: float, most: float = MOST) -> None:
+    """Refuses a value that is not finite or not within the range."""
+    if not math.isfinite(value) or value < least:
+        raise ExoError(f"{name} = {value:g}: expected a finite value, at least {least:g}")
+    if value > most:
+        raise ExoError(f"{name} = {value:g}: expected at most {most:g}")
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -1,4 +1,5 @@
-"""Limits and margins of the sampled loop, found on the eigenvalues of `theory.closed_loop`."""
+"""Limits and margins of the sampled loop, found on the eigenvalues of `theory.closed_loop` or, where the hand acts many
+samples late, by Nyquist's count of the same ones."""
 
 import math
 from collections.abc import Callable
@@ -6,23 +7,55 @@ from dataclasses import dataclass, replace
 from itertools import pairwise
 
 import numpy as np
+from numpy.polynomial import polynomial
 from numpy.typing import NDArray
 
 from exo import theory
 from exo.theory import Hand
 from exo.tuning.machine import Gains, Machine, loop
+from exo.tuning.nyquist import Late, Parts, samples
 
 #: An eigenvalue is this close to the unit circle before it counts as growing: the rounding of one that lies on it.
 ON_THE_CIRCLE = 1e-9
+#: Up to so many samples of reflex delay the eigenvalues of the matrix are as fast as counting.
+FEW_SAMPLES = 32
+#: Frequencies at which the loop is cut: at least so many, and so many in each turn of the hand's phase.
+CUTS, CUTS_A_TURN = 4000, 32
+#: Where the hand's force is this share of the mass' inertia it no longer shapes the loop.
+FADED = 1e-3
 #: Values tried a decade when a range is scanned; a limit is then refined by halves.
 PER_DECADE = 24
 
 
+def late_hand(*, machine: Machine, gains: Gains, M: float, hand: Hand) -> Late | None:
+    """The loop at M (kg) for Nyquist's count, if its matrix would be large."""
+    if samples(delay=hand.delay, T=machine.T)[0] <= FEW_SAMPLES or not (hand.k_h or hand.b_h):
+        return None
+    return Late.of(loop=loop(machine=machine, gains=gains, M=M), hand=hand, delay=machine.delay)
+
+
+def felt(hand: Hand) -> Hand:
+    """The hand; one that exerts nothing is never late."""
+    return hand if hand.k_h or hand.b_h else Hand()
+
+
 def is_stable(*, machine: Machine, gains: Gains, M: float, hand: Hand | None = None) -> bool:
     """Whether nothing grows at the mass M (kg), with the machine's hand or another one."""
+    hand = felt(machine.hand if hand is None else hand)
+    late = late_hand(machine=machine, gains=gains, M=M, hand=hand)
+    if late:
+        return not late.growing(size=math.exp(ON_THE_CIRCLE))
     loop_at = loop(machine=machine, gains=gains, M=M)
-    growth = theory.growth_rate(loop=loop_at, hand=machine.hand if hand is None else hand, delay=machine.delay)
-    return growth * machine.T <= ON_THE_CIRCLE
+    return theory.growth_rate(loop=loop_at, hand=hand, delay=machine.delay) * machine.T <= ON_THE_CIRCLE
+
+
+def growth(*, machine: Machine, gains: Gains, M: float) -> float:
+    """Growth σ (1/s) of the slowest mode, exp(σ t), at the mass M (kg) with the machine's hand."""
+    hand = felt(machine.hand)
+    late = late_hand(machine=machine, gains=gains, M=M, hand=hand)
+    if late:
+        return late.growth() / machine.T
+    return theory.growth_rate(loop=loop(machine=machine, gains=gains, M=M), hand=hand, delay=machine.delay)
 
 
 @dataclass(frozen=True)
@@ -114,7 +147,7 @@ def delay_margin(*, machine: Machine, gains: Gains, M: float) -> float:
     L(z), z = exp(iωT), is the force that comes back for a unit force at the robot, cut at τ_a. Where |L| = 1 a further
     delay of φ/ω turns L onto −1 for feedback by −L, φ being the phase by which it lacks there.
     """
-    omega = np.geomspace(1e-3, math.pi / machine.T, 4000)
+    omega = frequencies(machine=machine, M=M)
     L = cut_loop(machine=machine, gains=gains, M=M, omega=omega)
     size = np.log(np.abs(L))
     margins = []
@@ -127,21 +160,31 @@ def delay_margin(*, machine: Machine, gains: Gains, M: float) -> float:
     return min(margins, default=math.inf)
 
 
+def frequencies(*, machine: Machine, M: float) -> NDArray[np.float64]:
+    """Where the loop is looked at (rad/s): a late hand turns its phase every 2π/delay until the mass outweighs it."""
+    fastest = math.pi / machine.T
+    omega = np.geomspace(1e-3, fastest, CUTS)
+    if not machine.hand_delay:
+        return omega
+    faded = min(fastest, max(math.sqrt(2.0 * machine.k_h / (M * FADED)), 2.0 * machine.b_h / (M * FADED)))
+    turns = np.arange(1, math.ceil(CUTS_A_TURN * faded * machine.hand_delay / (2.0 * math.pi)) + 1)
+    return np.union1d(omega, np.minimum(2.0 * math.pi / (CUTS_A_TURN * machine.hand_delay) * turns, fastest))
+
+
 def cut_loop(*, machine: Machine, gains: Gains, M: float, omega: NDArray[np.float64]) -> NDArray[np.complex128]:
     """τ_a for a unit force at the robot in its place, at the frequencies `omega` (rad/s)."""
-    law = theory.opened(loop=loop(machine=machine, gains=gains, M=M))
-    hand = machine.hand
-    answers = []
-    for w in omega:
-        z = np.exp(1j * w * machine.T)
-        # f_h = −h x, as late as the hand is; linear between ticks as in `theory.closed_loop`.
-        whole = math.floor(hand.delay / machine.T + 1e-9)
-        share = max(hand.delay / machine.T - whole, 0.0)
-        late = z**-whole * (1.0 - share + share / z)
-        h = late * np.array([hand.k_h, hand.b_h, 0.0, 0.0, 0.0])
-        x = np.linalg.solve(z * np.eye(5) - law.A + np.outer(law.F, h), law.B)
-        answers.append((law.C - law.G * h) @ x * z**-machine.delay)
-    return np.asarray(answers)
+    at = loop(machine=machine, gains=gains, M=M)
+    parts = Parts.of(loop=at, hand=machine.hand)
+    s = 1j * omega * machine.T
+    z, w = np.exp(s), np.expm1(s)
+    # f_h = −late H F/(M w²), as late as the hand is; linear between ticks as in `theory.closed_loop`.
+    whole, share = samples(delay=machine.hand_delay, T=machine.T)
+    S, G_1, G_2, I_1, travel, hand = (
+        polynomial.polyval(w, p) for p in (parts.S, parts.G_1, parts.G_2, parts.I_1, parts.travel, parts.H)
+    )
+    late_hand = np.exp(-whole * s) * (1.0 - share + share / z) * hand
+    answer = w * machine.T * I_1 * G_1 * travel / z + (w + 2.0) * G_2 * late_hand
+    return np.asarray(-at.K * z**-machine.delay * answer / (S * (M * w**2 + late_hand)))
 
 
 @dataclass(frozen=True)
@@ -154,10 +197,15 @@ class Swing:
 
 def modes(*, machine: Machine, gains: Gains, M: float) -> tuple[float, Swing | None]:
     """Time constant (s) of the slowest mode, negative if it grows, and the least damped oscillation if there is one."""
-    matrix = theory.closed_loop(loop=loop(machine=machine, gains=gains, M=M), hand=machine.hand, delay=machine.delay)
-    eigenvalues = np.linalg.eigvals(matrix).astype(complex)
-    s = np.log(eigenvalues[np.abs(eigenvalues) > 1e-12]) / machine.T
-    rate = float(np.max(s.real))
+    hand = felt(machine.hand)
+    late = late_hand(machine=machine, gains=gains, M=M, hand=hand)
+    if late:
+        s, rate = late.roots() / machine.T, late.growth() / machine.T
+    else:
+        at = loop(machine=machine, gains=gains, M=M)
+        eigenvalues = np.linalg.eigvals(theory.closed_loop(loop=at, hand=hand, delay=machine.delay)).astype(complex)
+        s = np.log(eigenvalues[np.abs(eigenvalues) > 1e-12]) / machine.T
+        rate = float(np.max(s.real))
     slowest = -1.0 / rate if rate else math.inf
     # A real negative eigenvalue, a swing from tick to tick, counts as one.
     swinging = [x for x in s if abs(x.imag) > 1e-6 * abs(x)]

@@ -1,26 +1,17 @@
-"""The gain guide as tables, as JSON and as a map."""
+"""The gain guide as a sentence, as tables and as JSON."""
 
 import json
 import math
-from dataclasses import asdict, replace
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
-import matplotlib as mpl
-import numpy as np
-from matplotlib.figure import Figure as Canvas
 from rich.table import Table
 from rich.text import Text
 
-from exo import theory
-from exo.plots import STYLE
-from exo.theory import Hand
-from exo.tuning import region
+from exo.tuning import chart
 from exo.tuning.guide import KT_OVER_M_MAX, MARGIN, MN_OVER_M_MIN, AtMass, Guide
-from exo.tuning.machine import loop
 
-#: Points of the map along each axis.
-GRID = 48
 #: What the columns of `by_mass` are.
 LEGEND = """\
 K T/M        largest stable one without a hand
@@ -37,6 +28,23 @@ def number(value: float | None) -> str:
     if value is None:
         return "–"
     return "∞" if math.isinf(value) else f"{float(f'{value:.3g}'):.12g}"
+
+
+def verdict(guide: Guide) -> str:
+    """Whether the gains are stable, and how far K is from where they are not."""
+    K = f"K = {number(guide.gains.K)} N·s/m"
+    if guide.stable:
+        masses = " to ".join(dict.fromkeys(number(M) for M in (guide.machine.M_min, guide.machine.M_max)))
+        fall = "to 0" if math.isinf(guide.lowering_margin) else f"by a factor of {number(guide.lowering_margin)}"
+        rise = f"by a factor of {number(guide.gain_margin)}"
+        return f"stable: nothing grows at M = {masses} kg. {K} may rise {rise} and fall {fall}."
+    worst = max(guide.unstable, key=lambda at: at.growth)
+    interval = guide.stable_gains
+    held = f"stable from {number(interval.low)} to {number(interval.high)} N·s/m" if interval else "no K is stable"
+    return (
+        f"unstable: something grows by {number(worst.growth)} 1/s at M = {number(worst.M)} kg. "
+        f"{K}; {held} at every mass with this hand."
+    )
 
 
 def by_mass(guide: Guide) -> Table:
@@ -101,6 +109,7 @@ def document(guide: Guide) -> dict[str, Any]:
         **asdict(guide),
         "masses": [row(at) for at in guide.masses],
         "stable": guide.stable,
+        "stable_gains": asdict(guide.stable_gains) if guide.stable_gains else None,
         "gain_margin": guide.gain_margin,
         "lowering_margin": guide.lowering_margin,
         "k_h_limit": guide.k_h_limit,
@@ -114,59 +123,5 @@ def write(*, guide: Guide, out: Path) -> list[Path]:
     out.mkdir(parents=True, exist_ok=True)
     text, picture = out / "tune.json", out / "tune.png"
     text.write_text(json.dumps(document(guide), indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
-    draw(guide=guide, path=picture)
+    chart.draw(guide=guide, path=picture)
     return [text, picture]
-
-
-def growth_map(guide: Guide, *, M: float, K: Any, k_h: Any) -> Any:
-    """Growth (1/s) of the slowest mode over K (columns) and k_h (rows) at the mass M (kg)."""
-    machine = guide.machine
-    return np.array(
-        [
-            [
-                theory.growth_rate(
-                    loop=loop(machine=machine, gains=replace(guide.gains, K=float(x)), M=M),
-                    hand=replace(machine.hand, k_h=float(k)),
-                    delay=machine.delay,
-                )
-                for x in K
-            ]
-            for k in k_h
-        ]
-    )
-
-
-def draw(*, guide: Guide, path: Path) -> None:
-    """The map: K against the mass without a hand, and k_h against K at the lightest and the heaviest mass."""
-    machine, gains = guide.machine, guide.gains
-    limits = [at.K_free.high for at in guide.masses if at.K_free]
-    top = 2.0 * max([*limits, gains.K])
-    K = np.geomspace(1e-4 * top, top, GRID)
-    k_limit = guide.k_h_limit if 0.0 < guide.k_h_limit < math.inf else 100.0
-    k_h = np.geomspace(0.02 * max(k_limit, machine.k_h), 50.0 * max(k_limit, machine.k_h), GRID)
-    heaviest = sorted({machine.M_min, machine.M_max})
-    with mpl.rc_context(STYLE):  # type: ignore[arg-type]
-        canvas = Canvas(layout="constrained", figsize=(4.2 * (1 + len(heaviest)), 4.0))
-        axes = canvas.subplots(1, 1 + len(heaviest), squeeze=False)[0]
-        M = [at.M for at in guide.masses]
-        for label, hand, look in (("without a hand", Hand(), "-"), ("with the hand", machine.hand, "--")):
-            ends = [region.gain_interval(machine=machine, gains=gains, M=x, hand=hand) for x in M]
-            axes[0].loglog(M, [e.high if e else math.nan for e in ends], look, marker=".", label=f"largest K {label}")
-            if any(e and e.low for e in ends):
-                axes[0].loglog(M, [e.low if e and e.low else math.nan for e in ends], look, marker=".",
-                               label=f"smallest K {label}")  # fmt: skip
-        axes[0].loglog(M, [KT_OVER_M_MAX * x / machine.T for x in M], ":", color="#555555", label="K T/M = 0.25")
-        axes[0].axhline(gains.K, color="k", linewidth=0.9, label="K")
-        axes[0].set_xlabel("effective mass M [kg]")
-        axes[0].set_ylabel("K [N·s/m]")
-        axes[0].set_title("stable between the lines")
-        axes[0].legend()
-        for place, mass in zip(axes[1:], heaviest, strict=True):
-            growth = growth_map(guide, M=mass, K=K, k_h=k_h)
-            place.contourf(K, k_h, growth, levels=[-1e9, 0.0, 1e9], colors=["#cfe3d4", "#f3d3cf"])
-            place.contour(K, k_h, growth, levels=[0.0], colors="k", linewidths=1.0)
-            place.plot([gains.K], [max(machine.k_h, k_h[0])], "k+", markersize=11, label="the gains and the hand")
-            place.set(xscale="log", yscale="log", xlabel="K [N·s/m]", ylabel="k_h [N/m]", title=f"M = {mass:g} kg")
-            place.legend(loc="lower left")
-        canvas.suptitle(f"Stable region (green): T = {1e3 * machine.T:g} ms, delay {machine.delay}", fontsize=11)
-        canvas.savefig(path, metadata={"Software": None}, bbox_inches="tight")
