@@ -28,13 +28,16 @@ pub struct Connection<'a> {
     pub when: &'a str,
 }
 
+/// A component and one of its variables.
+pub type End<'a> = (&'a str, &'a str);
+
 /// FMUs that run together, for the quick start.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct System<'a> {
     /// Name of each component and its FMU, in the order in which they step.
     pub parts: &'a [(&'a str, &'a str)],
     /// Connections, component and variable, written as in [`Connection`].
-    pub wires: &'a [((&'a str, &'a str), (&'a str, &'a str))],
+    pub wires: &'a [(End<'a>, End<'a>)],
     /// Start values that make something happen: component, variable, value.
     pub start: &'a [(&'a str, &'a str, &'a str)],
 }

@@ -103,7 +103,7 @@ fn grounds(fmu: &Fmu) -> Vec<Vec<Setting>> {
                 let setting = Setting::new(variable, f64::from(value));
                 grounds
                     .iter()
-                    .map(move |ground| [ground.as_slice(), &[setting.clone()]].concat())
+                    .map(move |ground| [ground.as_slice(), std::slice::from_ref(&setting)].concat())
                     .collect::<Vec<_>>()
             })
             .collect();
