@@ -7,7 +7,7 @@ from importlib import metadata
 from pathlib import Path
 from typing import Any
 
-from exo import metrics
+from exo import metrics, trial
 from exo.errors import ScenarioError, close_matches
 from exo.fmu import Archive
 from exo.naming import elements
@@ -73,6 +73,8 @@ def run(
     with ExitStack() as stack:
         names = {part.archive for part in scenario.components.values()}
         archives = {name: stack.enter_context(Archive(fmu_dir / name)) for name in sorted(names)}
+        for archive in archives.values():
+            trial.check(archive)
         parsed = _parse_overrides(scenario, archives, overrides or {})
         plans = {case.id: plan(scenario=scenario, case=case, overrides=parsed) for case in scenario.cases}
         recordings = {}

@@ -16,9 +16,9 @@ from typing import Any
 from exo.errors import ScenarioError, close_matches
 from exo.expansion import entries, figures, wiring
 from exo.expansion.axes import Axes
-from exo.expansion.base import home, joined, read
+from exo.expansion.base import home, joined, read, text_of
 
-__all__ = ["expanded", "home", "joined", "read"]
+__all__ = ["expanded", "home", "joined", "read", "text_of"]
 
 
 def expanded(data: dict[str, Any], *, origin: str) -> dict[str, Any]:
