@@ -7,7 +7,7 @@ NumPy buffers, because fmpy's convenience calls cost more than the models.
 import os
 import re
 from collections import deque
-from ctypes import byref, c_double, c_int, c_size_t, c_void_p
+from ctypes import byref, c_char_p, c_double, c_int, c_size_t, c_void_p
 from itertools import count
 from math import isfinite
 from pathlib import Path
@@ -318,6 +318,13 @@ class Instance:
     def _transfer(self, function: str, references: References, values: NDArray[Any]) -> None:
         address = c_void_p(values.ctypes.data)
         self._call(function, c_void_p(references.address), c_size_t(references.count), address)
+
+    def text(self, name: str) -> str:
+        """Current value of a String."""
+        reference = np.array([self.archive.variable(name).valueReference], dtype=np.uint32)
+        value = c_char_p()
+        self._call("fmi2GetString", c_void_p(reference.ctypes.data), c_size_t(1), byref(value))
+        return (value.value or b"").decode(errors="replace")
 
     def references(self, names: list[str]) -> dict[Kind, References]:
         """Variables grouped by kind, enumerations among the integers; strings are left out."""

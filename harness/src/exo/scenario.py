@@ -141,6 +141,9 @@ class Metric(Data):
     check: Check = Check()
     expected: dict[Identifier, Check] = {}
     source: Line
+    #: Parameters on which the expectation rests, as `controller.tau_max` or `plant.*`, and `duration`, `step`: one that
+    #: the command line changes turns the verdict into information. All when absent; none is an invariant.
+    rests_on: tuple[str, ...] | None = None
     #: Case id → key in paper.toml.
     paper: dict[Identifier, str] = {}
 
@@ -153,6 +156,8 @@ class Ratio(Data):
     of: tuple[str, str]
     check: Check
     source: Line
+    #: As in a metric.
+    rests_on: tuple[str, ...] | None = None
 
 
 class Curve(Data):
