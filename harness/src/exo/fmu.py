@@ -116,8 +116,8 @@ class Archive:
                 case "Integer" | "Enumeration" if value.lstrip("-").isdigit() or not choices(variable):
                     return int(value)
         except (ValueError, KeyError):
-            kind = f"a finite {variable.type}" if variable.type == "Real" else str(variable.type)
-            raise FmuError(f"{self.path.name}: {name}: expected {kind}, got {value!r}") from None
+            finite = " that is finite" if variable.type == "Real" else ""
+            raise FmuError(f"{self.path.name}: {name}: expected {variable.type}{finite}, got {value!r}") from None
         return value
 
     def start_value(self, name: str, value: bool | int | float | str) -> tuple[Kind, float | int]:

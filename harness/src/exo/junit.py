@@ -36,7 +36,7 @@ def text(suites: list[ET.Element]) -> bytes:
     root = ET.Element("testsuites", name="exo")
     root.extend(suites)
     ET.indent(root)
-    return ET.tostring(root, encoding="utf-8", xml_declaration=True)
+    return bytes(ET.tostring(root, encoding="utf-8", xml_declaration=True))
 
 
 def combine(out: Path) -> Path:

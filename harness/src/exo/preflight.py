@@ -81,7 +81,8 @@ def empty_window(metric: Metric, plan: Plan) -> str:
     for after, before in pairs:
         first = max(0, -int(-(float(after) - SAME_INSTANT) // plan.step))
         if first >= plan.steps or first * plan.step >= float(before) - SAME_INSTANT:
-            return f"no tick in {after} s ≤ t < {before} s; the run has 0 s ≤ t < {plan.duration:g} s, every {plan.step:g} s"
+            run = f"0 s ≤ t < {plan.duration:g} s, every {plan.step:g} s"
+            return f"no tick in {after} s ≤ t < {before} s; the run has {run}"
     for key in ("first", "last", "at"):
         if key in given and float(given[key]) > plan.duration:
             return f"{key} = {given[key]} s lies behind the end of the run, {plan.duration:g} s"
@@ -180,8 +181,10 @@ def _recorded(name: str, plan: Plan, of: Mapping[str, Archive], owner: str) -> N
         raise ScenarioError(f"{owner}: {name}: no component {component}{close_matches(component, of)}")
     if name in plan.inputs:
         return
-    found = of[component].variable(variable)
-    if found.causality not in RECORDED:
+    known = of[component].variables
+    if variable not in known:
+        raise ScenarioError(f"{owner}: {of[component].path.name}: no variable {variable}{close_matches(variable, known)}")
+    if known[variable].causality not in RECORDED:
         raise ScenarioError(f"{owner}: {name} is not recorded: expected an output, a parameter or a wired input")
 
 

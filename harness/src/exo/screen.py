@@ -55,7 +55,7 @@ def sentences() -> Iterator[None]:
             raise
         said = " ".join(str(error).split())
         errors.print(
-            f"exo: an error of exo itself: {type(error).__name__}: {said}; EXO_TRACEBACK=1 shows where; please report it",
+            f"exo: an error of exo itself: {type(error).__name__}: {said}; EXO_TRACEBACK=1 shows where it is",
             markup=False,
         )
         raise typer.Exit(2) from error
@@ -80,7 +80,7 @@ def add(found: Table, *cells: str) -> None:
 
 
 def print_table(found: Table) -> None:
-    """Prints it, a row a line, as wide as it is: a pipe has no width, and what does not fit a terminal goes on below."""
+    """Prints it, a row a line, as wide as it is: a pipe has no width, and a terminal goes on in its next line."""
     wide = Console(width=ENDLESS, highlight=False)
     with wide.capture() as lines:
         wide.print(found)
