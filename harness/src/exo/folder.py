@@ -48,7 +48,10 @@ def prepare(out: Path, scenarios: list[str]) -> None:
 def replaced(target: Path) -> Iterator[Path]:
     """A new folder that takes the place of `target` where the block ends without an error."""
     target.parent.mkdir(parents=True, exist_ok=True)
-    fresh = Path(tempfile.mkdtemp(prefix=f".{target.name}.", suffix=".new", dir=target.parent))
+    with locked(target.parent):
+        _sweep(target)
+        fresh = Path(tempfile.mkdtemp(prefix=f".{target.name}.", suffix=".new", dir=target.parent))
+        living = _lock(fresh)
     try:
         fresh.chmod(0o777 & ~_umask())
         yield fresh
@@ -56,6 +59,37 @@ def replaced(target: Path) -> Iterator[Path]:
             _swap(fresh, target)
     finally:
         shutil.rmtree(fresh, ignore_errors=True)
+        if living is not None:
+            os.close(living)
+
+
+def _sweep(target: Path) -> None:
+    """Removes what killed runs have left beside `target`, and puts back what one of them had just moved away."""
+    if sys.platform == "win32":
+        return
+    for old in target.parent.glob(f".{target.name}.*.old"):  # lives only as long as the place is locked
+        if not target.exists() and (old / "was").is_dir():
+            (old / "was").rename(target)
+        shutil.rmtree(old, ignore_errors=True)
+    for fresh in target.parent.glob(f".{target.name}.*.new"):
+        with suppress(OSError):
+            handle = _lock(fresh, wait=False)
+            shutil.rmtree(fresh, ignore_errors=True)
+            if handle is not None:
+                os.close(handle)
+
+
+def _lock(folder: Path, *, wait: bool = True) -> int | None:
+    """Locks a folder until the handle is closed or the process ends; OSError, if another one has it."""
+    if sys.platform == "win32":
+        return None
+    handle = os.open(folder, os.O_RDONLY)
+    try:
+        fcntl.flock(handle, fcntl.LOCK_EX | (0 if wait else fcntl.LOCK_NB))
+    except OSError:
+        os.close(handle)
+        raise
+    return handle
 
 
 def _swap(fresh: Path, target: Path) -> None:
@@ -112,15 +146,12 @@ def write_file(path: Path, data: bytes) -> None:
 @contextmanager
 def locked(out: Path) -> Iterator[None]:
     """One process at a time where folders are put into place. The lock ends with its process."""
-    if sys.platform == "win32":
-        yield
-        return
-    handle = os.open(out, os.O_RDONLY)
+    handle = _lock(out)
     try:
-        fcntl.flock(handle, fcntl.LOCK_EX)
         yield
     finally:
-        os.close(handle)
+        if handle is not None:
+            os.close(handle)
 
 
 def _umask() -> int:

@@ -183,7 +183,9 @@ def _recorded(name: str, plan: Plan, of: Mapping[str, Archive], owner: str) -> N
         return
     known = of[component].variables
     if variable not in known:
-        raise ScenarioError(f"{owner}: {of[component].path.name}: no variable {variable}{close_matches(variable, known)}")
+        raise ScenarioError(
+            f"{owner}: {of[component].path.name}: no variable {variable}{close_matches(variable, known)}"
+        )
     if known[variable].causality not in RECORDED:
         raise ScenarioError(f"{owner}: {name} is not recorded: expected an output, a parameter or a wired input")
 
