@@ -94,7 +94,7 @@ def test_two_files_with_one_id_are_refused(tmp_path: Path, fmu_dir: Path) -> Non
         (changed("duration = 1.0", "duration = 1e-9"), ["no multiple of the step"]),
         (changed("duration = 1.0", "duration = 190000.0"), ["GB of this machine"]),
         (changed('column = "plant.q" }', 'column = "plant.q", after = 2.0 }'), ["no tick in 2.0 s ≤ t < 1.0 s"]),
-        (changed('column = "plant.q" }', 'column = "plant.q", after = "2" }'), ["after: got '2'", "number"]),
+        (changed('column = "plant.q" }', 'column = "plant.q", after = "2" }'), ["after: got 2", "number"]),
         (changed('column = "plant.q" }', 'column = "plant.p" }'), ["metric moved: case push", "no variable p"]),
         (changed('column = "plant.q" }', 'column = "plant.tau_d" }'), ["plant.tau_d is not recorded"]),
         (changed('column = "plant.q", label', 'column = "plant.qq", label'), ["figure q: case push", "qq"]),

@@ -65,7 +65,7 @@ def main(
         bool, typer.Option("--version", callback=_version, is_eager=True, help="Prints the version.")
     ] = False,
 ) -> None:
-    pass
+    screen.take_any_letter()
 
 
 main.__doc__ = __doc__

@@ -34,6 +34,7 @@ from exo.validate.archive import Contents, open_archive
 Kind = Literal["Real", "Integer", "Boolean"]
 #: How the values of each kind lie in memory.
 DTYPES: dict[Kind, type[np.generic]] = {"Real": np.float64, "Integer": np.int32, "Boolean": np.int32}
+LARGEST, LARGEST_INTEGER = float(np.finfo(np.float64).max), int(np.iinfo(np.int32).max)
 #: Letters of another program's message.
 QUOTED = 400
 STATUS = ("OK", "Warning", "Discard", "Error", "Fatal", "Pending")
@@ -124,6 +125,9 @@ class Archive:
         """The C type and number for a start value, checked against type, causality and enumeration items."""
         variable = self.variable(name)
         where = f"{self.path.name}: {name}"
+        largest = LARGEST if variable.type == "Real" else LARGEST_INTEGER
+        if not isinstance(value, str) and not abs(value) <= largest:
+            raise FmuError(f"{where}: expected {variable.type} of at most {largest:g}, got {str(value)[:20]}")
         if variable.causality not in ("parameter", "input"):
             raise FmuError(f"{where}: only parameters and inputs can be set, this is {variable.causality}")
         items = choices(variable)

@@ -1,8 +1,10 @@
 """What the commands print: tables that no pipe cuts, and the numbers of a run."""
 
+import io
 import math
 import os
 import signal
+import sys
 import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -21,11 +23,18 @@ from exo.verdict import Result
 ENDLESS = 100_000
 ORDER = ("fail", "info", "pass")
 COLORS = {"pass": "green", "fail": "bold red", "info": "blue"}
-#: The shell's codes of a command that Ctrl-C and that SIGTERM have ended.
-INTERRUPTED, TERMINATED = 130, 143
+#: The shell's codes of a command that Ctrl-C, that a pipe's other end and that SIGTERM have ended.
+INTERRUPTED, BROKEN_PIPE, TERMINATED = 130, 141, 143
 
 console = Console(highlight=False, soft_wrap=True)
 errors = Console(stderr=True, highlight=False, soft_wrap=True)
+
+
+def take_any_letter() -> None:
+    """A terminal or a pipe that knows no ≥ gets `\\u2265`."""
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):
+            stream.reconfigure(errors="backslashreplace")
 
 
 @contextmanager
@@ -41,6 +50,10 @@ def sentences() -> Iterator[None]:
     except MemoryError as error:
         errors.print("exo: out of memory; expected fewer cases, a shorter duration or a longer step", markup=False)
         raise typer.Exit(2) from error
+    except BrokenPipeError as error:
+        # Who reads has seen enough, as `head`. What is still buffered has nowhere to go.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        raise typer.Exit(BROKEN_PIPE) from error
     except OSError as error:
         where = f"{error.filename}: " if error.filename else ""
         errors.print(f"exo: {where}{error.strerror or error}", markup=False)

@@ -60,6 +60,6 @@ def _check_components(components: Any, *, where: str) -> None:
         return
     there = [name for name, part in components.items() if not isinstance(part, dict) or "archive" in part]
     for name, part in components.items():
-        if name not in there and set(part) == {"parameters"}:
+        if name not in there and set(part) == {"parameters"} and isinstance(part["parameters"], dict):
             keys = ", ".join(f"{name}.{key}" for key in part["parameters"])
             raise ScenarioError(f"{where}: {keys}: unknown component {name}{close_matches(name, there)}")

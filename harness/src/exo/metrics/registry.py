@@ -5,7 +5,7 @@ import json
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from pydantic import TypeAdapter, ValidationError
+from pydantic import ConfigDict, TypeAdapter, ValidationError
 
 from exo.errors import ExoError, ScenarioError, close_matches
 from exo.recording import Recording
@@ -53,10 +53,12 @@ def check(
     for name, value in full.items():
         wanted = inspect.signature(REGISTRY[function]).parameters[name].annotation
         try:
-            TypeAdapter(wanted).validate_json(json.dumps(value, default=str), strict=True)
+            TypeAdapter(wanted, config=ConfigDict(allow_inf_nan=False)).validate_json(
+                json.dumps(value, default=str), strict=True
+            )
         except ValidationError as error:
             expected = error.errors(include_url=False)[0]["msg"]
-            raise ScenarioError(f"{owner}: {function}: {name}: got {value!r}; expected: {expected}") from error
+            raise ScenarioError(f"{owner}: {function}: {name}: got {str(value)[:80]}; expected: {expected}") from error
     for name in COMPONENTS:
         if components is not None and name in full and full[name] not in components:
             known = close_matches(str(full[name]), components)
