@@ -1,7 +1,6 @@
 """What the command line changes: which verdicts still hold, what is printed, and which part of a scenario runs."""
 
 import json
-import os
 import re
 import subprocess
 import sys
@@ -177,19 +176,6 @@ def test_the_version_and_the_list_are_for_programs_too() -> None:
     assert [row["id"] for row in rows] == list(scenario.built_in())
     wall = next(row for row in rows if row["id"] == "wall")
     assert (len(wall["cases"]), wall["duration_s"], wall["step_s"]) == (16, 60.0, 0.002)
-
-
-def shell(*arguments: object, **more: str) -> subprocess.CompletedProcess[bytes]:
-    """The command as a process of its own."""
-    command = [sys.executable, "-m", "exo.cli", *map(str, arguments)]
-    return subprocess.run(command, capture_output=True, env=os.environ | more, check=False)
-
-
-def test_a_terminal_that_lacks_letters_gets_their_numbers() -> None:
-    answer = shell("list", PYTHONIOENCODING="ascii", PYTHONUTF8="0")
-    assert (answer.returncode, answer.stderr) == (0, b"")
-    assert b"wall " in answer.stdout
-    assert answer.stdout.isascii()
 
 
 def test_a_pipe_that_is_closed_early_is_no_error() -> None:

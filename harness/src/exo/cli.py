@@ -61,7 +61,7 @@ def _version(wanted: bool) -> None:
 
 @app.callback()
 def main(
-    version: Annotated[
+    _wanted: Annotated[
         bool, typer.Option("--version", callback=_version, is_eager=True, help="Prints the version.")
     ] = False,
 ) -> None:
@@ -77,20 +77,7 @@ def list_scenarios(*, as_json: AsJson = False) -> None:
     with sentences():
         scenarios = [scenario.load(name) for name in scenario.built_in()]
         if as_json:
-            rows = [
-                {
-                    "id": data.id,
-                    "title": data.title,
-                    "about": data.about.strip(),
-                    "source": data.source,
-                    "duration_s": data.duration,
-                    "step_s": data.step,
-                    "cases": [case.id for case in data.cases],
-                    "metrics": [metric.id for metric in data.metrics] + [ratio.id for ratio in data.ratios],
-                    "archives": sorted({part.archive for part in data.components.values()}),
-                }
-                for data in scenarios
-            ]
+            rows = [selection.described(data) for data in scenarios]
             typer.echo(json.dumps(rows, indent=2, ensure_ascii=False))
             return
         table = screen.table("scenario", "cases", "what")
@@ -132,7 +119,7 @@ def run(
         scenarios = [
             selection.narrowed(one, cases=cases or (), duration=duration, step=step) for one in selection.load(names)
         ]
-        own = {Path(name).stem for name in names if name.endswith(".toml")}
+        own_file = any(name.endswith(".toml") for name in names)
         given = {key: value for key, value in (("duration", duration), ("step", step)) if value is not None}
         passed = _run_all(
             scenarios=scenarios,
@@ -144,7 +131,7 @@ def run(
                 done,
                 folder=folder,
                 shown=screen.ORDER if everything else ("fail", "info"),
-                unwired=everything or bool(own),
+                unwired=everything or own_file,
             ),
         )
     raise typer.Exit(0 if passed else 1)
@@ -194,22 +181,12 @@ def compare(
             }
             typer.echo(json.dumps(answer, indent=2, ensure_ascii=False, allow_nan=False))
         else:
-            _print_differences(beyond)
+            screen.print_differences(beyond)
             console.print(
                 f"{len(differences)} numbers and signals compared, {len(beyond)} differ by more than {tolerance:g}; "
                 f"largest difference {largest:.3g}"
             )
     raise typer.Exit(1 if beyond else 0)
-
-
-def _print_differences(beyond: list[comparison.Difference]) -> None:
-    if not beyond:
-        return
-    table = screen.table("kind", "name", "a", "b", "unit", "difference")
-    for d in beyond:
-        numbers = ("–" if x is None else f"{x:.9g}" for x in (d.a, d.b))
-        screen.add(table, d.kind, d.name, *numbers, d.unit, f"{d.share:.3g}" if isfinite(d.share) else d.why)
-    screen.print_table(table)
 
 
 @app.command("ssp")

@@ -15,6 +15,7 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
+from exo.compare import Difference
 from exo.errors import ExoError
 from exo.experiment import Experiment
 from exo.verdict import Result
@@ -136,6 +137,17 @@ def print_run(
         console.print(f"  not wired, at their start values: {', '.join(done.unwired)}", markup=False)
     pictures = [f"{figure.id}.png" for figure in done.scenario.figures]
     console.print(f"  results: {folder}{': ' if pictures else ''}{', '.join(pictures)}", markup=False)
+
+
+def print_differences(beyond: list[Difference]) -> None:
+    """Numbers and signals of two results that differ."""
+    if not beyond:
+        return
+    rows = table("kind", "name", "a", "b", "unit", "difference")
+    for d in beyond:
+        numbers = ("–" if x is None else f"{x:.9g}" for x in (d.a, d.b))
+        add(rows, d.kind, d.name, *numbers, d.unit, f"{d.share:.3g}" if math.isfinite(d.share) else d.why)
+    print_table(rows)
 
 
 def _judged(result: Result) -> tuple[str, str]:

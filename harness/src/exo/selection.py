@@ -3,6 +3,7 @@
 import math
 from collections.abc import Callable, Iterable
 from fnmatch import fnmatchcase
+from typing import Any
 
 from exo import scenario as scenarios
 from exo.errors import ScenarioError, close_matches
@@ -36,6 +37,21 @@ def load(names: list[str]) -> list[Scenario]:
         if other != name:
             raise ScenarioError(f"{other} and {name} both have the id {one.id}; expected another id for one of them")
     return loaded
+
+
+def described(scenario: Scenario) -> dict[str, Any]:
+    """What `exo list --json` says of a scenario."""
+    return {
+        "id": scenario.id,
+        "title": scenario.title,
+        "about": scenario.about.strip(),
+        "source": scenario.source,
+        "duration_s": scenario.duration,
+        "step_s": scenario.step,
+        "cases": [case.id for case in scenario.cases],
+        "metrics": [metric.id for metric in scenario.metrics] + [ratio.id for ratio in scenario.ratios],
+        "archives": sorted({part.archive for part in scenario.components.values()}),
+    }
 
 
 def narrowed(
