@@ -3,6 +3,7 @@
 import json
 import math
 import os
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -76,6 +77,8 @@ def test_metrics_have_units_and_undefined_ones_are_equal(tmp_path: Path, fmu_dir
     found = json.loads(exo("compare", tmp_path / "a", tmp_path / "b", "--json").stdout)["beyond"]
     assert next(row for row in found if row["kind"] == "metric")["unit"] == "m"
     assert next(row for row in found if row["name"].endswith(": controller.tau_a"))["unit"] == "N"
+    shutil.copytree(tmp_path / "a" / "short", tmp_path / "a" / ".short.x.new")
+    assert "missing" not in exo("compare", tmp_path / "a", tmp_path / "b").stdout
     for name in ("a", "b"):
         path = tmp_path / name / "short" / "metrics.json"
         document = json.loads(path.read_text(encoding="utf-8"))

@@ -13,7 +13,7 @@ from xml.etree import ElementTree as ET
 
 import pytest
 
-from exo import __version__, folder, recording
+from exo import __version__, folder, junit, recording
 from exo.fmu import Archive
 
 from commands import SHORT, exo
@@ -89,6 +89,11 @@ def test_the_verdicts_of_other_scenarios_stay_in_the_junit_file(short: Path, tmp
         exo("run", path, "--fmu-dir", fmu_dir, "--out", tmp_path / "out")
     suites = ET.parse(tmp_path / "out" / "junit.xml").getroot().findall("testsuite")
     assert [suite.get("name") for suite in suites] == ["other", "short"]
+    (tmp_path / "out" / "short").rename(tmp_path / "out" / ".short.x.new")
+    junit.combine(tmp_path / "out")
+    suites = ET.parse(tmp_path / "out" / "junit.xml").getroot().findall("testsuite")
+    assert [suite.get("name") for suite in suites] == ["other"]
+    (tmp_path / "out" / ".short.x.new").rename(tmp_path / "out" / "short")
     own = ET.parse(tmp_path / "out" / "short" / "junit.xml").getroot().findall("testsuite")
     assert [suite.get("name") for suite in own] == ["short"]
 

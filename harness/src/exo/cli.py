@@ -263,9 +263,9 @@ def measure_sensitivity(
         with progress_bar() as progress:
             task = progress.add_task("sensitivity", total=len(list(sensitivity.jobs(data))))
             effects = sensitivity.measure(runner, on_job=lambda job: progress.update(task, description=job, advance=1))
-    path = out or study.with_suffix(".json")
-    path.write_text(sensitivity.text(effects), encoding="utf-8")
-    console.print(f"written: {path}", markup=False)
+        path = out or study.with_suffix(".json")
+        folder.write_file(path, sensitivity.text(effects).encode())
+        console.print(f"written: {path}", markup=False)
 
 
 @app.command("identify-tool")

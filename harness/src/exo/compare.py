@@ -65,7 +65,9 @@ def compare(a: Path, b: Path) -> list[Difference]:
 
 def _relevant(folder: Path) -> set[str]:
     paths = [*folder.rglob("metrics.json"), *folder.rglob("signals/*.parquet")]
-    return {path.relative_to(folder).as_posix() for path in paths}
+    names = [path.relative_to(folder) for path in paths]
+    # A folder that is being written, or was when its run was killed, begins with a dot.
+    return {name.as_posix() for name in names if not any(part.startswith(".") for part in name.parts)}
 
 
 def _missing(name: str) -> Difference:
