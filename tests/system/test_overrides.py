@@ -147,6 +147,12 @@ def test_a_shorter_run_leaves_what_it_does_not_reach_undefined(run: Any) -> None
     assert re.search(r"info +moved/push +undefined", answer.output)
 
 
+@pytest.mark.parametrize("name", [name for name in scenario.built_in() if "arm" not in name] + ["arm_delay"])
+def test_the_beginning_of_a_scenario_can_be_run_alone(name: str, tmp_path: Path, fmu_dir: Path) -> None:
+    answer = exo("run", name, "--duration", "0.1", "--fmu-dir", fmu_dir, "--out", tmp_path)
+    assert answer.exit_code == 0, answer.output + answer.stderr
+
+
 def test_another_step_is_taken_with_its_sample_period(run: Any, tmp_path: Path) -> None:
     found, _ = run("--step", "0.001", "--set", "controller.T=0.001")
     document = json.loads((tmp_path / "out" / "short" / "metrics.json").read_text(encoding="utf-8"))

@@ -11,6 +11,7 @@ from typing import Any
 
 from exo import metrics, preflight, trial
 from exo import overrides as settings
+from exo.errors import ScenarioError
 from exo.fmu import Archive, Instance
 from exo.paper import lookup
 from exo.recording import Recording
@@ -139,16 +140,22 @@ def evaluate(
     results: dict[str, Result] = {}
     for metric in scenario.metrics:
         for case in metric.cases or tuple(recordings):
-            # Only a shortened run comes so far with a window that has no tick.
-            undefined = bool(preflight.empty_window(metric, plans[case]))
+            # A run of another length or step may lack what a metric looks at.
+            narrowed = bool({"duration", "step"} & set(changed[case]))
+            undefined = narrowed and bool(preflight.empty_window(metric, plans[case]))
             value = math.nan
-            if not undefined:
-                value = metrics.evaluate(
-                    recording=recordings[case],
-                    function=metric.function,
-                    arguments=metric.arguments,
-                    owner=f"{scenario.id}: metric {metric.id}",
-                )
+            try:
+                if not undefined:
+                    value = metrics.evaluate(
+                        recording=recordings[case],
+                        function=metric.function,
+                        arguments=metric.arguments,
+                        owner=f"{scenario.id}: metric {metric.id}: case {case}",
+                    )
+            except ScenarioError:
+                if not narrowed:
+                    raise
+                undefined = True
             name = f"{metric.id}/{case}"
             results[name] = judge(
                 metric=name,
@@ -162,7 +169,8 @@ def evaluate(
             )
     for ratio in scenario.ratios:
         upper, lower = (results[name].value for name in ratio.of)
-        names = dict.fromkeys(one for name in ratio.of for one in changed[name.split("/", 1)[1]])
+        names = tuple(dict.fromkeys(one for name in ratio.of for one in changed[name.split("/", 1)[1]]))
+        undefined = bool({"duration", "step"} & set(names)) and not (math.isfinite(upper) and math.isfinite(lower))
         results[ratio.id] = judge(
             metric=ratio.id,
             title=ratio.title,
@@ -170,6 +178,6 @@ def evaluate(
             unit="1",
             check=ratio.check,
             source=ratio.source,
-            void_by=settings.void(ratio.rests_on, tuple(names)),
+            void_by=names if undefined else settings.void(ratio.rests_on, names),
         )
     return tuple(results.values())
