@@ -3,25 +3,41 @@
 import json
 import re
 from collections import Counter
-from collections.abc import Iterable, Iterator
-from contextlib import ExitStack, contextmanager
+from collections.abc import Callable, Iterable
+from contextlib import ExitStack
 from dataclasses import replace
 from math import isfinite
 from pathlib import Path
 from typing import Annotated
 
 import typer
-from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
-from rich.table import Table
 
+from exo import (
+    __version__,
+    experiment,
+    folder,
+    junit,
+    kept,
+    readings,
+    report,
+    results,
+    scenario,
+    screen,
+    selection,
+    sensitivity,
+    tool,
+    validate,
+)
 from exo import benchmark as bench
 from exo import compare as comparison
-from exo import experiment, kept, readings, report, results, scenario, sensitivity, tool, validate
 from exo.errors import ExoError, FmuError, ScenarioError
+from exo.expansion import schema as file_schema
 from exo.experiment import Experiment
 from exo.fmu import Archive, find_fmu_dir
 from exo.kept import ALL, NONE
+from exo.scenario import Scenario
+from exo.screen import console, sentences
 from exo.systems import closed, container, ssp
 from exo.systems import system as systems
 from exo.systems.system import RECIPES
@@ -30,8 +46,6 @@ from exo.tuning import show
 from exo.tuning.machine import Gains, Machine
 
 app = typer.Typer(no_args_is_help=True, add_completion=False, pretty_exceptions_enable=False, help=__doc__)
-console = Console(highlight=False, soft_wrap=True)
-errors = Console(stderr=True, highlight=False, soft_wrap=True)
 
 Out = Annotated[Path, typer.Option("--out", help="Folder for the results.")]
 FmuDir = Annotated[
@@ -41,50 +55,97 @@ Signals = Annotated[
     str, typer.Option(metavar="all|none|SCENARIO,…", help="Whose signals are written, every tick as Parquet.")
 ]
 Csv = Annotated[bool, typer.Option("--csv", help="Write signals and the figures' data as CSV, too.")]
+AsJson = Annotated[bool, typer.Option("--json", help="As JSON.")]
 #: Findings of one rule that `exo validate` prints.
 SHOWN = 5
-COLORS = {"pass": "green", "fail": "bold red", "info": "blue"}
 
 
-@contextmanager
-def sentences() -> Iterator[None]:
-    """Turns errors that are meant for the user into one message and exit code 2."""
-    try:
-        yield
-    except ExoError as error:
-        errors.print(f"exo: {error}", markup=False)
-        raise typer.Exit(2) from error
+def _version(wanted: bool) -> None:
+    if wanted:
+        typer.echo(f"exo {__version__}")
+        raise typer.Exit
+
+
+@app.callback()
+def main(
+    _wanted: Annotated[
+        bool, typer.Option("--version", callback=_version, is_eager=True, help="Prints the version.")
+    ] = False,
+) -> None:
+    screen.take_any_letter()
+
+
+main.__doc__ = __doc__
 
 
 @app.command("list")
-def list_scenarios() -> None:
+def list_scenarios(*, as_json: AsJson = False) -> None:
     """Lists the scenarios."""
     with sentences():
-        table = Table("scenario", "cases", "what", box=None)
-        for name in scenario.built_in():
-            data = scenario.load(name)
-            table.add_row(name, str(len(data.cases)), data.title)
-        console.print(table)
+        scenarios = [scenario.load(name) for name in scenario.built_in()]
+        if as_json:
+            rows = [selection.described(data) for data in scenarios]
+            typer.echo(json.dumps(rows, indent=2, ensure_ascii=False))
+            return
+        table = screen.table("scenario", "cases", "what")
+        for data in scenarios:
+            screen.add(table, data.id, str(len(data.cases)), data.title)
+        screen.print_table(table)
+
+
+@app.command("schema")
+def print_schema() -> None:
+    """Prints the JSON Schema of scenario files, for editors and other programs."""
+    with sentences():
+        typer.echo(json.dumps(file_schema.schema(), indent=2, ensure_ascii=False))
 
 
 @app.command()
 def run(
-    names: Annotated[list[str], typer.Argument(metavar="SCENARIO…", help="Scenario ids or .toml files.")],
+    names: Annotated[
+        list[str], typer.Argument(metavar="SCENARIO…", help="Scenario ids, patterns such as 'arm_*', or .toml files.")
+    ],
     *,
     settings: Annotated[
         list[str] | None, typer.Option("--set", metavar="NAME=VALUE", help="Overrides a parameter in all cases.")
     ] = None,
+    cases: Annotated[
+        list[str] | None, typer.Option("--case", metavar="CASE", help="Only cases of this id or pattern.")
+    ] = None,
+    duration: Annotated[float | None, typer.Option(help="Another length of all cases, s.")] = None,
+    step: Annotated[float | None, typer.Option(help="Another macro step, s.")] = None,
+    everything: Annotated[bool, typer.Option("--all", help="Prints the numbers that pass, too.")] = False,
     signals: Signals = ALL,
     csv: Csv = False,
     out: Out = Path("results"),
     fmu_dir: FmuDir = None,
 ) -> None:
-    """Runs scenarios; exit code 1 when a verdict fails."""
+    """Runs scenarios; exit code 1 when a verdict fails.
+
+    What --set, --duration or --step change makes the verdicts that rest on it information.
+    """
     with sentences():
-        experiments = _run_all(
-            names=names, overrides=parse_settings(settings or []), signals=signals, csv=csv, out=out, fmu_dir=fmu_dir
+        scenarios = [
+            selection.narrowed(one, cases=cases or (), duration=duration, step=step) for one in selection.load(names)
+        ]
+        own_file = any(name.endswith(".toml") for name in names)
+        given = {key: value for key, value in (("duration", duration), ("step", step)) if value is not None}
+        passed = _run_all(
+            scenarios=scenarios,
+            overrides=parse_settings(settings or []),
+            given=given,
+            signals=signals,
+            csv=csv,
+            out=out,
+            fmu_dir=fmu_dir,
+            tell=lambda done, folder: screen.print_run(
+                done,
+                folder=folder,
+                shown=screen.ORDER if everything else ("fail", "info"),
+                unwired=everything or own_file,
+            ),
         )
-    _finish(experiments)
+    raise typer.Exit(0 if passed else 1)
 
 
 @app.command()
@@ -92,32 +153,52 @@ def reproduce(signals: Signals = NONE, csv: Csv = False, out: Out = Path("result
     """Runs all scenarios and writes report.html."""
     with sentences():
         names = list(scenario.built_in())
-        experiments = _run_all(names=names, overrides={}, signals=signals, csv=csv, out=out, fmu_dir=fmu_dir)
+        passed = _run_all(
+            scenarios=selection.load(names),
+            overrides={},
+            given={},
+            signals=signals,
+            csv=csv,
+            out=out,
+            fmu_dir=fmu_dir,
+            tell=lambda done, folder: screen.print_run(done, folder=folder, shown=("fail",), unwired=False),
+        )
         path = report.write(out=out, scenarios=names)
-    console.print(f"report: {path}", markup=False)
-    _finish(experiments)
+        console.print(f"report: {path}", markup=False)
+    raise typer.Exit(0 if passed else 1)
 
 
 @app.command()
 def compare(
     a: Path,
     b: Path,
+    *,
     tolerance: Annotated[float, typer.Option(help="Largest difference, as a share of the larger magnitude.")] = 1e-12,
+    as_json: AsJson = False,
 ) -> None:
     """Compares two result folders or two signal files; exit code 1 beyond the tolerance."""
     with sentences():
+        if not tolerance >= 0.0:
+            raise ExoError(f"--tolerance {tolerance:g}: expected a share of 0 or more")
         differences = comparison.compare(a, b)
-    beyond = [d for d in differences if not d.share <= tolerance]
-    table = Table("kind", "name", "a", "b", "difference", box=None)
-    for d in sorted(beyond, key=lambda d: -d.share):
-        table.add_row(d.kind, d.name, *("–" if x is None else f"{x:.9g}" for x in (d.a, d.b)), f"{d.share:.3g}")
-    if beyond:
-        console.print(table)
-    largest = max((d.share for d in differences), default=0.0)
-    console.print(
-        f"{len(differences)} numbers and signals compared, {len(beyond)} differ by more than {tolerance:g}; "
-        f"largest difference {largest:.3g}"
-    )
+        beyond = sorted((d for d in differences if not d.share <= tolerance), key=lambda d: -d.share)
+        largest = max((d.share for d in differences), default=0.0)
+        if as_json:
+            answer = {
+                "a": str(a),
+                "b": str(b),
+                "tolerance": tolerance,
+                "compared": len(differences),
+                "largest": largest if isfinite(largest) else None,
+                "beyond": [d.as_json() for d in beyond],
+            }
+            typer.echo(json.dumps(answer, indent=2, ensure_ascii=False, allow_nan=False))
+        else:
+            screen.print_differences(beyond)
+            console.print(
+                f"{len(differences)} numbers and signals compared, {len(beyond)} differ by more than {tolerance:g}; "
+                f"largest difference {largest:.3g}"
+            )
     raise typer.Exit(1 if beyond else 0)
 
 
@@ -204,9 +285,9 @@ def measure_sensitivity(
         with progress_bar() as progress:
             task = progress.add_task("sensitivity", total=len(list(sensitivity.jobs(data))))
             effects = sensitivity.measure(runner, on_job=lambda job: progress.update(task, description=job, advance=1))
-    path = out or study.with_suffix(".json")
-    path.write_text(sensitivity.text(effects), encoding="utf-8")
-    console.print(f"written: {path}", markup=False)
+        path = out or study.with_suffix(".json")
+        folder.write_file(path, sensitivity.text(effects).encode())
+        console.print(f"written: {path}", markup=False)
 
 
 @app.command("identify-tool")
@@ -235,10 +316,10 @@ def identify_tool(
 
 
 def _print_rules() -> None:
-    table = Table("rule", "severity", "holds when", box=None)
+    table = screen.table("rule", "severity", "holds when")
     for rule in validate.RULES.values():
-        table.add_row(rule.id, rule.severity, rule.text)
-    console.print(table)
+        screen.add(table, rule.id, rule.severity, rule.text)
+    screen.print_table(table)
 
 
 def _print_report(report: validate.Report) -> None:
@@ -326,49 +407,37 @@ def progress_bar() -> Progress:
 
 
 def _run_all(
-    *, names: list[str], overrides: dict[str, str], signals: str, csv: bool, out: Path, fmu_dir: Path | None
-) -> list[Experiment]:
-    folder = find_fmu_dir(fmu_dir)
-    scenarios = [scenario.load(name) for name in names]
+    *,
+    scenarios: list[Scenario],
+    overrides: dict[str, str],
+    given: dict[str, float],
+    signals: str,
+    csv: bool,
+    out: Path,
+    fmu_dir: Path | None,
+    tell: Callable[[Experiment, Path], None],
+) -> bool:
+    """Runs and writes one scenario after the other; whether no verdict failed."""
+    fmus = find_fmu_dir(fmu_dir)
     written = kept.parse(signals=signals, csv=csv, scenarios=[data.id for data in scenarios])
-    experiments = []
+    folder.prepare(out, [data.id for data in scenarios])
+    passed = True
     with progress_bar() as progress:
         for data in scenarios:
             task = progress.add_task(data.id, total=len(data.cases) + 1)
             done = experiment.run(
                 scenario=data,
-                fmu_dir=folder,
+                fmu_dir=fmus,
                 overrides=overrides,
+                given=given,
                 on_case=lambda _case, task=task: progress.advance(task),  # type: ignore[misc]
             )
-            results.write(experiment=done, out=out, kept=written)
+            place = results.write(experiment=done, out=out, kept=written)
+            junit.combine(out)
             progress.remove_task(task)
-            experiments.append(done)
-            _print(done)
-    results.write_junit(experiments=experiments, out=out)
-    return experiments
-
-
-def _print(done: Experiment) -> None:
-    counts = {v: sum(r.verdict == v for r in done.results) for v in COLORS}
-    verdict = "pass" if done.passed else "fail"
-    simulated = sum(plan.duration for plan in done.plans.values())
-    computing = sum(run.wall_time for run in done.recordings.values())
-    console.print(
-        f"[{COLORS[verdict]}]{verdict}[/] {done.scenario.id}: {counts['pass']} pass, {counts['fail']} fail, "
-        f"{counts['info']} info; {simulated:.0f} s simulated in {computing:.2f} s"
-    )
-    for result in done.results:
-        if result.verdict == "fail":
-            console.print(
-                f"  fail {result.id}: {result.value:.6g} {result.unit}, "
-                f"expected {result.expectation()} ({result.source})",
-                markup=False,
-            )
-
-
-def _finish(experiments: list[Experiment]) -> None:
-    raise typer.Exit(0 if all(done.passed for done in experiments) else 1)
+            passed = passed and done.passed
+            tell(done, place)
+    return passed
 
 
 if __name__ == "__main__":

@@ -9,7 +9,7 @@ from typing import Any, Literal
 import numpy as np
 
 from exo.errors import ExoError
-from exo.recording import read
+from exo.recording import read, units_of
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -21,6 +21,23 @@ class Difference:
     a: float | None
     b: float | None
     share: float
+    unit: str = ""
+    #: Where the share is infinite.
+    why: str = "missing"
+
+    def as_json(self) -> dict[str, Any]:
+        """With null for what is no finite number."""
+        numbers = {
+            key: x if x is not None and math.isfinite(x) else None
+            for key, x in (("a", self.a), ("b", self.b), ("share", self.share))
+        }
+        return {
+            "kind": self.kind,
+            "name": self.name,
+            "unit": self.unit,
+            **numbers,
+            "why": "" if math.isfinite(self.share) else self.why,
+        }
 
 
 def compare(a: Path, b: Path) -> list[Difference]:
@@ -48,7 +65,9 @@ def compare(a: Path, b: Path) -> list[Difference]:
 
 def _relevant(folder: Path) -> set[str]:
     paths = [*folder.rglob("metrics.json"), *folder.rglob("signals/*.parquet")]
-    return {path.relative_to(folder).as_posix() for path in paths}
+    names = [path.relative_to(folder) for path in paths]
+    # A folder that is being written, or was when its run was killed, begins with a dot.
+    return {name.as_posix() for name in names if not any(part.startswith(".") for part in name.parts)}
 
 
 def _missing(name: str) -> Difference:
@@ -56,15 +75,27 @@ def _missing(name: str) -> Difference:
 
 
 def _metrics(a: Path, b: Path, prefix: str) -> list[Difference]:
-    numbers: list[dict[str, Any]] = [json.loads(path.read_text(encoding="utf-8"))["metrics"] for path in (a, b)]
+    numbers = [_numbers(path) for path in (a, b)]
     found = []
     for name in [*numbers[0], *(name for name in numbers[1] if name not in numbers[0])]:
         if name not in numbers[0] or name not in numbers[1]:
             found.append(_missing(prefix + name))
             continue
-        x, y = (side[name]["value"] for side in numbers)
-        found.append(Difference(kind="metric", name=prefix + name, a=x, b=y, share=_share_of_numbers(x, y)))
+        (x, unit), (y, other) = (side[name] for side in numbers)
+        share, why = _share_of_numbers(x, y), "undefined in one"
+        if unit != other:
+            share, why = math.inf, f"{unit} and {other}"
+        found.append(Difference(kind="metric", name=prefix + name, a=x, b=y, share=share, unit=unit, why=why))
     return found
+
+
+def _numbers(path: Path) -> dict[str, tuple[float | None, str]]:
+    """Value and unit of each metric."""
+    try:
+        metrics = json.loads(path.read_text(encoding="utf-8"))["metrics"]
+        return {name: (entry["value"], str(entry["unit"])) for name, entry in metrics.items()}
+    except (ValueError, KeyError, TypeError, AttributeError) as error:
+        raise ExoError(f"{path}: not the metrics.json of a run: {type(error).__name__}: {error}") from error
 
 
 def _share_of_numbers(x: float | None, y: float | None) -> float:
@@ -74,15 +105,41 @@ def _share_of_numbers(x: float | None, y: float | None) -> float:
 
 
 def _signals(a: Path, b: Path, prefix: str) -> list[Difference]:
-    columns = [read(path) for path in (a, b)]
+    columns, units = [read(path) for path in (a, b)], units_of(a) | units_of(b)
     found = []
     for name in [*columns[0], *(name for name in columns[1] if name not in columns[0])]:
-        if name not in columns[0] or name not in columns[1] or len(columns[0][name]) != len(columns[1][name]):
+        if name not in columns[0] or name not in columns[1]:
             found.append(_missing(prefix + name))
             continue
-        x, y = (np.asarray(side[name], dtype=np.float64) for side in columns)
-        peaks = [float(np.max(np.abs(values), initial=0.0)) for values in (x, y)]
-        apart = float(np.max(np.abs(x - y), initial=0.0))
-        share = 0.0 if apart == 0.0 else apart / max(peaks) if math.isfinite(apart) else math.inf
-        found.append(Difference(kind="signal", name=prefix + name, a=peaks[0], b=peaks[1], share=share))
+        x, y = (_as_numbers(side[name], path, name) for side, path in zip(columns, (a, b), strict=True))
+        share, why = _share_of_signals(x, y)
+        peaks = [_peak(values) for values in (x, y)]
+        unit = units.get(name, "")
+        found.append(
+            Difference(kind="signal", name=prefix + name, a=peaks[0], b=peaks[1], share=share, unit=unit, why=why)
+        )
     return found
+
+
+def _as_numbers(column: Any, path: Path, name: str) -> Any:
+    try:
+        return np.asarray(column, dtype=np.float64)
+    except (TypeError, ValueError) as error:
+        raise ExoError(f"{path}: {name}: expected numbers: {error}") from error
+
+
+def _peak(values: Any) -> float:
+    """Largest magnitude of the numbers that are finite."""
+    return float(np.max(np.abs(values[np.isfinite(values)]), initial=0.0))
+
+
+def _share_of_signals(x: Any, y: Any) -> tuple[float, str]:
+    """Largest difference over the larger peak. What is NaN, or the same infinity, in both is no difference."""
+    if len(x) != len(y):
+        return math.inf, f"{len(x)} and {len(y)} values"
+    unlike = ~((x == y) | (np.isnan(x) & np.isnan(y)))
+    if not unlike.any():
+        return 0.0, ""
+    if not (np.isfinite(x[unlike]).all() and np.isfinite(y[unlike]).all()):
+        return math.inf, "not finite in one"
+    return float(np.max(np.abs(x[unlike] - y[unlike]))) / max(_peak(x), _peak(y)), ""

@@ -1,5 +1,7 @@
 """One scenario from data to verdicts: opens the archives, runs every case, evaluates every metric."""
 
+import hashlib
+import math
 from collections.abc import Callable, Mapping
 from contextlib import ExitStack
 from dataclasses import dataclass
@@ -7,10 +9,10 @@ from importlib import metadata
 from pathlib import Path
 from typing import Any
 
-from exo import metrics
-from exo.errors import ScenarioError, close_matches
-from exo.fmu import Archive
-from exo.naming import elements
+from exo import metrics, preflight, trial
+from exo import overrides as settings
+from exo.errors import ScenarioError
+from exo.fmu import Archive, Instance
 from exo.paper import lookup
 from exo.recording import Recording
 from exo.scenario import Case, Scenario, Value
@@ -30,6 +32,8 @@ class Experiment:
     results: tuple[Result, ...]
     #: Archive name → guid, version and tool of the FMU.
     fmus: Mapping[str, Mapping[str, str]]
+    #: Inputs at their start values: nothing feeds them and nothing sets them.
+    unwired: tuple[str, ...] = ()
 
     @property
     def passed(self) -> bool:
@@ -52,7 +56,11 @@ class Experiment:
                     "duration_s": self.plans[case.id].duration,
                     "step_s": self.plans[case.id].step,
                     "parameters_set": dict(self.plans[case.id].parameters),
-                    "parameters": dict(self.recordings[case.id].parameters),
+                    "parameters": {
+                        # JSON has no NaN and no infinity.
+                        key: value if math.isfinite(value) else str(value)
+                        for key, value in self.recordings[case.id].parameters.items()
+                    },
                     "wall_time_s": self.recordings[case.id].wall_time,
                     "real_time_factor": self.recordings[case.id].real_time_factor,
                 }
@@ -66,76 +74,88 @@ def run(
     scenario: Scenario,
     fmu_dir: Path,
     overrides: Mapping[str, str] | None = None,
+    given: Mapping[str, float] | None = None,
     on_case: Callable[[Case], None] = lambda _case: None,
 ) -> Experiment:
-    """Runs all cases. `overrides` are texts from the command line; `on_case` is told before each case."""
-    _check_functions(scenario)
+    """Runs all cases. `overrides` are texts from the command line; `on_case` is told before each case.
+
+    `given` are `duration` and `step` (s) where they have replaced the scenario's (`exo.selection.narrowed`).
+    """
+    preflight.functions(scenario)
     with ExitStack() as stack:
         names = {part.archive for part in scenario.components.values()}
         archives = {name: stack.enter_context(Archive(fmu_dir / name)) for name in sorted(names)}
-        parsed = _parse_overrides(scenario, archives, overrides or {})
+        parsed = settings.parse(scenario, archives, overrides or {})
         plans = {case.id: plan(scenario=scenario, case=case, overrides=parsed) for case in scenario.cases}
+        preflight.check(scenario=scenario, plans=plans, archives=archives, shortened=bool(given))
+        for archive in archives.values():
+            trial.check(archive)
+        changed = {
+            case.id: (
+                *settings.changed(plain=plan(scenario=scenario, case=case), overrides=parsed, archives=archives),
+                *(given or {}),
+            )
+            for case in scenario.cases
+        }
         recordings = {}
         for case in scenario.cases:
             on_case(case)
             recordings[case.id] = simulate(plan=plans[case.id], archives=archives)
         fmus = {name: _facts(archive) for name, archive in archives.items()}
+        unwired = preflight.unwired(plans, archives)
     return Experiment(
         scenario=scenario,
-        overrides=parsed,
+        overrides=parsed | dict(given or {}),
         plans=plans,
         recordings=recordings,
-        results=evaluate(scenario=scenario, recordings=recordings),
+        results=evaluate(scenario=scenario, recordings=recordings, plans=plans, changed=changed),
         fmus=fmus,
+        unwired=tuple(unwired),
     )
 
 
 def _facts(archive: Archive) -> dict[str, str]:
     description = archive.description
+    texts = {}
+    if getattr(archive.variables.get("git_hash"), "type", "") == "String":
+        with Instance(archive, "git_hash") as instance:
+            texts["git_hash"] = instance.text("git_hash")
     return {
         "guid": str(description.guid),
         "version": str(description.version or ""),
         "generation_tool": str(description.generationTool or ""),
+        "sha256": hashlib.sha256(archive.path.read_bytes()).hexdigest(),
+        **texts,
     }
 
 
-def _check_functions(scenario: Scenario) -> None:
-    """Refuses a scenario with a wrong function or argument before anything runs."""
-    for metric in scenario.metrics:
-        owner = f"{scenario.id}: metric {metric.id}"
-        metrics.check(function=metric.function, arguments=metric.arguments, owner=owner, components=scenario.components)
-        for key in metric.paper.values():
-            lookup(key)
-    for ratio in scenario.ratios:
-        if ratio.paper:
-            lookup(ratio.paper)
-
-
-def _parse_overrides(
-    scenario: Scenario, archives: Mapping[str, Archive], overrides: Mapping[str, str]
-) -> dict[str, Value]:
-    parsed: dict[str, Value] = {}
-    for key, text in overrides.items():
-        component, _, name = key.partition(".")
-        if component not in scenario.components or not name:
-            known = close_matches(component, scenario.components)
-            raise ScenarioError(f"--set {key}: expected <component>.<parameter>, got component {component!r}{known}")
-        archive = archives[scenario.components[component].archive]
-        parsed.update({f"{component}.{element}": archive.parse(element, text) for element in elements(name)})
-    return parsed
-
-
-def evaluate(*, scenario: Scenario, recordings: Mapping[str, Recording]) -> tuple[Result, ...]:
-    """All metrics of all cases, then the ratios."""
+def evaluate(
+    *,
+    scenario: Scenario,
+    recordings: Mapping[str, Recording],
+    plans: Mapping[str, Plan],
+    changed: Mapping[str, tuple[str, ...]],
+) -> tuple[Result, ...]:
+    """All metrics of all cases, then the ratios. `changed`: what the command line has changed of each case."""
     results: dict[str, Result] = {}
     for metric in scenario.metrics:
         for case in metric.cases or tuple(recordings):
-            value = metrics.evaluate(
-                recording=recordings[case],
-                function=metric.function,
-                arguments=metric.arguments,
-                owner=f"{scenario.id}: metric {metric.id}",
-            )
+            # A run of another length or step may lack what a metric looks at.
+            narrowed = bool({"duration", "step"} & set(changed[case]))
+            undefined = narrowed and bool(preflight.empty_window(metric, plans[case]))
+            value = math.nan
+            try:
+                if not undefined:
+                    value = metrics.evaluate(
+                        recording=recordings[case],
+                        function=metric.function,
+                        arguments=metric.arguments,
+                        owner=f"{scenario.id}: metric {metric.id}: case {case}",
+                    )
+            except ScenarioError:
+                if not narrowed:
+                    raise
+                undefined = True
             name = f"{metric.id}/{case}"
             results[name] = judge(
                 metric=name,
@@ -145,20 +165,21 @@ def evaluate(*, scenario: Scenario, recordings: Mapping[str, Recording]) -> tupl
                 check=metric.expected.get(case, metric.check),
                 source=metric.source,
                 paper=lookup(metric.paper[case]) if case in metric.paper else None,
+                void_by=changed[case] if undefined else settings.void(metric.rests_on, changed[case]),
             )
     for ratio in scenario.ratios:
-        for name in ratio.of:
-            if name not in results:
-                raise ScenarioError(f"{scenario.id}: ratio {ratio.id}: no metric {name}{close_matches(name, results)}")
         upper, lower = (results[name].value for name in ratio.of)
+        names = tuple(dict.fromkeys(one for name in ratio.of for one in changed[name.split("/", 1)[1]]))
+        undefined = bool({"duration", "step"} & set(names)) and not (math.isfinite(upper) and math.isfinite(lower))
         results[ratio.id] = judge(
             metric=ratio.id,
             title=ratio.title,
-            value=upper / lower,
+            value=upper / lower if lower else math.nan,
             unit="1",
             check=ratio.check,
             source=ratio.source,
             paper=lookup(ratio.paper) if ratio.paper else None,
+            void_by=names if undefined else settings.void(ratio.rests_on, names),
         )
     beside = [beside_the_paper(result) for result in results.values() if result.paper and result.paper.is_fair]
     return (*results.values(), *beside)

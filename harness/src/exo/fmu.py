@@ -6,10 +6,10 @@ NumPy buffers, because fmpy's convenience calls cost more than the models.
 
 import os
 import re
-import shutil
 from collections import deque
-from ctypes import byref, c_double, c_int, c_size_t, c_void_p
+from ctypes import byref, c_char_p, c_double, c_int, c_size_t, c_void_p
 from itertools import count
+from math import isfinite
 from pathlib import Path
 from types import TracebackType
 from typing import Any, Literal, Self
@@ -28,10 +28,15 @@ from fmpy.logging import addLoggerProxy
 from numpy.typing import NDArray
 
 from exo.errors import FmuError, close_matches
+from exo.extraction import Extraction
+from exo.validate.archive import Contents, open_archive
 
 Kind = Literal["Real", "Integer", "Boolean"]
 #: How the values of each kind lie in memory.
 DTYPES: dict[Kind, type[np.generic]] = {"Real": np.float64, "Integer": np.int32, "Boolean": np.int32}
+LARGEST, LARGEST_INTEGER = float(np.finfo(np.float64).max), int(np.iinfo(np.int32).max)
+#: Letters of another program's message.
+QUOTED = 400
 STATUS = ("OK", "Warning", "Discard", "Error", "Fatal", "Pending")
 
 
@@ -49,31 +54,42 @@ def find_fmu_dir(given: Path | None = None) -> Path:
 
 
 class Archive:
-    """An extracted `.fmu`: description and library, shared by all its instances. Use with `with`."""
+    """An extracted `.fmu`: description and library, shared by all its instances. Use with `with`.
+
+    FmuError names what is wrong: no file, no archive that is safe to extract, no description of a co-simulation FMU.
+    """
 
     def __init__(self, path: Path) -> None:
         if not path.is_file():
             raise FmuError(f"{path}: no such FMU: run `cargo xtask fmu` first")
         self.path = path
-        self.description: Any = fmpy.read_model_description(str(path))
-        if self.description.fmiVersion != "2.0" or self.description.coSimulation is None:
-            raise FmuError(f"{path}: expected an FMI 2.0 co-simulation FMU, got FMI {self.description.fmiVersion}")
+        self._contents = _contents(path)
+        self.description: Any = _description(path)
         self.variables: dict[str, Any] = {v.name: v for v in self.description.modelVariables}
-        self._folder = ""
+        self._extraction = Extraction(self._contents)
 
     def __enter__(self) -> Self:
-        self._folder = fmpy.extract(str(self.path))
+        self._extraction.__enter__()
         return self
 
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
-        shutil.rmtree(self._folder, ignore_errors=True)
+        self._extraction.close()
 
     @property
     def folder(self) -> str:
         """Where the archive lies extracted."""
-        return self._folder
+        return str(self._extraction.folder)
+
+    @property
+    def library(self) -> Path:
+        """The extracted library of this machine."""
+        name = f"binaries/{fmpy.platform}/{self.description.coSimulation.modelIdentifier}{fmpy.sharedLibraryExtension}"
+        if name not in self._contents.files:
+            there = ", ".join(file for file in self._contents.files if file.startswith("binaries/")) or "no library"
+            raise FmuError(f"{self.path}: expected {name} for this machine; the archive has {there}")
+        return self._extraction.folder / name
 
     def variable(self, name: str) -> Any:
         """The variable of this name, or an error that names close matches."""
@@ -92,20 +108,26 @@ class Archive:
         variable = self.variable(name)
         try:
             match variable.type:
+                case "Real" if isfinite(number := float(value)):
+                    return number
                 case "Real":
-                    return float(value)
+                    raise ValueError(value)  # metrics.json has no NaN and no infinity
                 case "Boolean":
                     return {"true": True, "false": False}[value.lower()]
                 case "Integer" | "Enumeration" if value.lstrip("-").isdigit() or not choices(variable):
                     return int(value)
         except (ValueError, KeyError):
-            raise FmuError(f"{self.path.name}: {name}: expected {variable.type}, got {value!r}") from None
+            finite = " that is finite" if variable.type == "Real" else ""
+            raise FmuError(f"{self.path.name}: {name}: expected {variable.type}{finite}, got {value!r}") from None
         return value
 
     def start_value(self, name: str, value: bool | int | float | str) -> tuple[Kind, float | int]:
         """The C type and number for a start value, checked against type, causality and enumeration items."""
         variable = self.variable(name)
         where = f"{self.path.name}: {name}"
+        largest = LARGEST if variable.type == "Real" else LARGEST_INTEGER
+        if not isinstance(value, str) and not abs(value) <= largest:
+            raise FmuError(f"{where}: expected {variable.type} of at most {largest:g}, got {str(value)[:20]}")
         if variable.causality not in ("parameter", "input"):
             raise FmuError(f"{where}: only parameters and inputs can be set, this is {variable.causality}")
         items = choices(variable)
@@ -131,6 +153,36 @@ def choices(variable: Any) -> dict[str, int]:
         return {str(item.name): int(item.value) for item in variable.declaredType.items}
     listed = re.search(r": (\d+ \w+(?:, \d+ \w+)+)$", variable.description or "")
     return {name: int(number) for number, name in (item.split() for item in listed[1].split(", "))} if listed else {}
+
+
+def _contents(path: Path) -> Contents:
+    contents, found = open_archive(path)
+    if contents is None:
+        first = next(finding for finding in found if finding.severity == "error")
+        raise FmuError(
+            f"{path}: no FMU that is safe to extract: {first.where}: {first.value}; expected {first.expected}"
+        )
+    return contents
+
+
+def _description(path: Path) -> Any:
+    """What fmpy reads of a co-simulation FMU, version 2.0, whose variables have the variability of their type."""
+    try:
+        description = fmpy.read_model_description(str(path))
+    except Exception as error:  # fmpy raises what its parser and its validation raise, and plain exceptions
+        raise FmuError(f"{path}: modelDescription.xml: {_said(error)}") from error
+    if description.fmiVersion != "2.0" or description.coSimulation is None:
+        kind = "without co-simulation" if description.coSimulation is None else ""
+        raise FmuError(
+            f"{path}: expected an FMI 2.0 co-simulation FMU, got FMI {description.fmiVersion} {kind}".rstrip()
+        )
+    return description
+
+
+def _said(error: Exception) -> str:
+    """Another program's message in one line."""
+    words = str(error).split()
+    return type(error).__name__ if words in ([], ["None"]) else " ".join(words)[:QUOTED]
 
 
 class References:
@@ -182,16 +234,27 @@ class Instance:
         self._environment = next(_ENVIRONMENTS)
         self._callbacks = _callbacks(self._environment)
         description = archive.description
-        self._slave: Any = FMU2Slave(
-            guid=description.guid,
-            unzipDirectory=archive.folder,
-            modelIdentifier=description.coSimulation.modelIdentifier,
-            instanceName=name,
-        )
+        library = archive.library
+        here = Path.cwd()
+        try:
+            self._slave: Any = FMU2Slave(
+                guid=description.guid,
+                unzipDirectory=archive.folder,
+                modelIdentifier=description.coSimulation.modelIdentifier,
+                instanceName=name,
+                libraryPath=str(library),
+            )
+        except Exception as error:  # of the system's loader and of fmpy, which leaves the working directory changed
+            os.chdir(here)
+            said = _said(error).replace(f"{archive.folder}/", "")
+            raise FmuError(f"{archive.path}: {said}") from error
 
     def function(self, name: str) -> Any:
         """A C function without argument types: give it ctypes objects. fmpy's own object keeps its types."""
-        return self._slave.dll[name]
+        try:
+            return self._slave.dll[name]
+        except AttributeError:
+            raise FmuError(f"{self.archive.path}: its library has no {name}") from None
 
     def __enter__(self) -> Self:
         _MESSAGES[self._environment] = self.messages
@@ -215,7 +278,8 @@ class Instance:
 
     def fail(self, function: str, status: int) -> FmuError:
         """The error for a call that returned another status than OK."""
-        return FmuError(f"{self.name}: {function} returned fmi2{STATUS[status]}: {self.last_message()}")
+        named = f"fmi2{STATUS[status]}" if 0 <= status < len(STATUS) else f"{status}, which is no status"
+        return FmuError(f"{self.name}: {function} returned {named}: {self.last_message()}")
 
     def _call(self, name: str, *arguments: Any) -> None:
         status = int(self.function(name)(c_void_p(self.component), *arguments))
@@ -258,6 +322,13 @@ class Instance:
     def _transfer(self, function: str, references: References, values: NDArray[Any]) -> None:
         address = c_void_p(values.ctypes.data)
         self._call(function, c_void_p(references.address), c_size_t(references.count), address)
+
+    def text(self, name: str) -> str:
+        """Current value of a String."""
+        reference = np.array([self.archive.variable(name).valueReference], dtype=np.uint32)
+        value = c_char_p()
+        self._call("fmi2GetString", c_void_p(reference.ctypes.data), c_size_t(1), byref(value))
+        return (value.value or b"").decode(errors="replace")
 
     def references(self, names: list[str]) -> dict[Kind, References]:
         """Variables grouped by kind, enumerations among the integers; strings are left out."""

@@ -58,7 +58,7 @@ class Recording:
 
     @property
     def step(self) -> float:
-        """Distance of two ticks (s)."""
+        """Distance of two ticks (s); a scenario has two or more."""
         return float(self.time[1] - self.time[0])
 
     @property
@@ -89,11 +89,22 @@ def write(table: pa.Table, path: Path, *, csv: bool = False) -> None:
 
 def read(path: Path) -> dict[str, NDArray[Any]]:
     """Columns of a Parquet or CSV file."""
-    match path.suffix:
-        case ".parquet":
-            table = pyarrow.parquet.read_table(path)
-        case ".csv":
-            table = pyarrow.csv.read_csv(path)
-        case _:
-            raise ExoError(f"{path}: expected a .parquet or .csv file")
+    try:
+        match path.suffix:
+            case ".parquet":
+                table = pyarrow.parquet.read_table(path)
+            case ".csv":
+                table = pyarrow.csv.read_csv(path)
+            case _:
+                raise ExoError(f"{path}: expected a .parquet or .csv file")
+    except pa.ArrowException as error:
+        raise ExoError(f"{path}: cannot be read: {' '.join(str(error).split())}") from error
     return {name: table[name].to_numpy() for name in table.column_names}
+
+
+def units_of(path: Path) -> dict[str, str]:
+    """Units of a Parquet file's columns; a CSV file has none."""
+    if path.suffix != ".parquet":
+        return {}
+    fields = pyarrow.parquet.read_schema(path)
+    return {field.name: (field.metadata or {}).get(b"unit", b"").decode() for field in fields}

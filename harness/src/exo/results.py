@@ -1,17 +1,13 @@
-"""What an experiment leaves on disk: metrics.json, signals, figures with their data, and the JUnit file of all."""
+"""What an experiment leaves on disk: metrics.json, signals, figures with their data, JUnit file and manifest."""
 
 import json
-import math
-import shutil
-from collections.abc import Sequence
 from importlib import resources
 from pathlib import Path
 from typing import Any
-from xml.etree import ElementTree as ET
 
 import jsonschema
 
-from exo import plots, recording
+from exo import folder, junit, manifest, plots, recording
 from exo.experiment import Experiment
 from exo.kept import EVERYTHING, Kept
 
@@ -40,46 +36,18 @@ def metrics_document(experiment: Experiment) -> dict[str, Any]:
 
 
 def write(*, experiment: Experiment, out: Path, kept: Kept = EVERYTHING) -> Path:
-    """Writes `<out>/<scenario>/` and returns it."""
-    folder = out / experiment.scenario.id
-    folder.mkdir(parents=True, exist_ok=True)
-    text = json.dumps(metrics_document(experiment), indent=2, ensure_ascii=False)
-    (folder / "metrics.json").write_text(text + "\n", encoding="utf-8")
-    if kept.has_signals_of(experiment.scenario.id):
-        for case, run in experiment.recordings.items():
-            recording.write(run.table(experiment.scenario.signals), folder / "signals" / case, csv=kept.csv)
-    else:
-        shutil.rmtree(folder / "signals", ignore_errors=True)  # of an earlier run
-    for figure in experiment.scenario.figures:
-        plots.draw(figure=figure, recordings=experiment.recordings, path=folder / f"{figure.id}.png")
-        data = plots.data(figure=figure, recordings=experiment.recordings)
-        recording.write(data, folder / "figures" / figure.id, csv=kept.csv)
-    return folder
-
-
-def write_junit(*, experiments: Sequence[Experiment], out: Path) -> Path:
-    """`<out>/junit.xml`: one test case a verdict; information is no test."""
-    root = ET.Element("testsuites", name="exo")
-    for experiment in experiments:
-        judged = [result for result in experiment.results if result.verdict != "info"]
-        suite = ET.SubElement(
-            root,
-            "testsuite",
-            name=experiment.scenario.id,
-            tests=str(len(judged)),
-            failures=str(sum(result.verdict == "fail" for result in judged)),
-            errors="0",
-            skipped="0",
-            time=f"{sum(run.wall_time for run in experiment.recordings.values()):.3f}",
-        )
-        for result in judged:
-            case = ET.SubElement(suite, "testcase", classname=experiment.scenario.id, name=result.id, time="0")
-            if result.verdict == "fail":
-                value = f"{result.value:.6g}" if math.isfinite(result.value) else "undefined"
-                text = f"{result.title}: {value} {result.unit}, expected {result.expectation()} ({result.source})"
-                ET.SubElement(case, "failure", message=text)
-    ET.indent(root)
-    out.mkdir(parents=True, exist_ok=True)
-    path = out / "junit.xml"
-    ET.ElementTree(root).write(path, encoding="utf-8", xml_declaration=True)
-    return path
+    """Writes `<out>/<scenario>/` as a whole, in the place of what an earlier run has left, and returns it."""
+    target = out / experiment.scenario.id
+    document = json.dumps(metrics_document(experiment), indent=2, ensure_ascii=False)
+    with folder.replaced(target) as fresh:
+        (fresh / folder.METRICS).write_text(document + "\n", encoding="utf-8")
+        if kept.has_signals_of(experiment.scenario.id):
+            for case, run in experiment.recordings.items():
+                recording.write(run.table(experiment.scenario.signals), fresh / "signals" / case, csv=kept.csv)
+        for figure in experiment.scenario.figures:
+            plots.draw(figure=figure, recordings=experiment.recordings, path=fresh / f"{figure.id}.png")
+            data = plots.data(figure=figure, recordings=experiment.recordings)
+            recording.write(data, fresh / "figures" / figure.id, csv=kept.csv)
+        (fresh / junit.NAME).write_bytes(junit.text([junit.suite(experiment)]))
+        manifest.write(experiment=experiment, folder=fresh)
+    return target

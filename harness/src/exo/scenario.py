@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Annotated, Any, Literal, Self
 
 from pydantic import (
+    AfterValidator,
     BaseModel,
     BeforeValidator,
     ConfigDict,
@@ -19,11 +20,16 @@ from pydantic import (
 
 from exo import expansion
 from exo.errors import ScenarioError, close_matches
-from exo.naming import expand_names, expand_values, expand_wires
+from exo.naming import expand_names, expand_values, expand_wires, file_name, line, text
 
 Coupling = Literal["zero_delay", "one_sample_delay", "exchange_at_once"]
 Value = bool | int | float | str
-Identifier = Annotated[str, StringConstraints(pattern=r"^[A-Za-z0-9_.+-]+$")]
+#: Names a file or a folder of the results, on every system.
+Identifier = Annotated[str, AfterValidator(file_name)]
+ComponentName = Annotated[str, StringConstraints(pattern=r"^[A-Za-z_]\w*$")]
+#: One line, and several: what is shown, also in XML and on terminals.
+Line = Annotated[str, AfterValidator(line)]
+Text = Annotated[str, AfterValidator(text)]
 #: `component.variable`, the name of an FMU's variable in a scenario.
 Qualified = Annotated[str, StringConstraints(pattern=r"^[A-Za-z_]\w*\.\S+$")]
 #: Arrays may be written at once, see `exo.naming`; what is kept has one entry an element.
@@ -37,6 +43,12 @@ NotNegative = Annotated[float, Field(ge=0.0)]
 #: Component name that stands for the scenario's profiles in `inputs`. A Boolean input is true from a half on,
 #: an Integer takes the nearest one.
 PROFILE = "profile"
+#: Files and folders that lie beside the scenarios' folders.
+RESERVED = ("junit.xml", "report.html", "tune")
+#: Of one case: 1e8 steps of 1 ms are a day; all columns of a run are kept in memory.
+MAX_STEPS = 1e8
+#: Problems of one file that are told, and letters of a value in them.
+TOLD, QUOTED = 20, 200
 
 
 class Data(BaseModel):
@@ -82,7 +94,7 @@ class Case(Data):
     """One run. Whatever stands here replaces what the scenario says."""
 
     id: Identifier
-    label: str = ""
+    label: Line = ""
     parameters: QualifiedParameters = {}
     inputs: Wires = {}
     profiles: dict[str, tuple[Segment, ...]] = {}
@@ -101,7 +113,7 @@ class Check(Data):
     relative: NotNegative | None = None
     at_most: float | None = None
     at_least: float | None = None
-    because: str = ""
+    because: Line = ""
 
     @model_validator(mode="after")
     def _is_one_kind(self) -> Self:
@@ -119,16 +131,19 @@ class Metric(Data):
     """A number taken from a run by a function of `exo.metrics`; its id in the results is `<id>/<case>`."""
 
     id: Identifier
-    title: str
-    unit: str
+    title: Line
+    unit: Line
     function: str
     arguments: dict[str, Any] = {}
     #: Case ids; all when absent.
-    cases: tuple[Identifier, ...] | None = None
+    cases: Annotated[tuple[Identifier, ...], Field(min_length=1)] | None = None
     #: For every case that has no entry in `expected`.
     check: Check = Check()
     expected: dict[Identifier, Check] = {}
-    source: str
+    source: Line
+    #: Parameters on which the expectation rests, as `controller.tau_max` or `plant.*`, and `duration`, `step`: one that
+    #: the command line changes turns the verdict into information. All when absent; none is an invariant.
+    rests_on: tuple[str, ...] | None = None
     #: Case id → key in paper.toml.
     paper: dict[Identifier, str] = {}
 
@@ -137,12 +152,14 @@ class Ratio(Data):
     """A number over two metrics: the first divided by the second."""
 
     id: Identifier
-    title: str
+    title: Line
     of: tuple[str, str]
     check: Check
-    source: str
+    source: Line
     #: Key in paper.toml, or nothing.
     paper: str = ""
+    #: As in a metric.
+    rests_on: tuple[str, ...] | None = None
 
 
 class Curve(Data):
@@ -150,7 +167,7 @@ class Curve(Data):
 
     case: Identifier
     column: Qualified
-    label: str = ""
+    label: Line = ""
     color: str = ""
     dashed: bool = False
 
@@ -161,14 +178,14 @@ class Bands(Data):
     case: Identifier
     column: Qualified
     #: What the values 0, 1, … mean.
-    labels: Annotated[tuple[str, ...], Field(min_length=1)]
+    labels: Annotated[tuple[Line, ...], Field(min_length=1)]
 
 
 class Panel(Data):
     """One pair of axes. `y_range` and the marks are in the unit of the axis."""
 
-    title: str = ""
-    y_label: str
+    title: Line = ""
+    y_label: Line
     curves: tuple[Curve, ...]
     y_range: tuple[float, float] | None = None
     x_range: tuple[float, float] | None = None
@@ -191,15 +208,15 @@ class Figure(Data):
     """A picture and, beside it, its data. Panels fill the grid row by row."""
 
     id: Identifier
-    title: str
+    title: Line
     kind: Literal["panels", "frequency_response", "arm_poses"] = "panels"
     #: The paper's label, when it is one of its figures.
-    label: str = ""
+    label: Line = ""
     columns: Annotated[int, Field(ge=1)] = 1
     panels: tuple[Panel, ...] = ()
     #: `arm_poses` only.
     poses: Poses | None = None
-    x_label: str = "time [s]"
+    x_label: Line = "time [s]"
 
     @model_validator(mode="after")
     def _fits_its_kind(self) -> Self:
@@ -219,21 +236,21 @@ class Scenario(Data):
     """An experiment: components, wiring, forces, cases, and what must come out."""
 
     id: Identifier
-    title: str
-    about: str
-    source: str
+    title: Line
+    about: Text
+    source: Line
     duration: Positive
     #: Macro step = the controller's sample period (s).
     step: Positive
     coupling: Coupling = "zero_delay"
     #: In the order in which they step.
-    components: dict[Identifier, Component]
+    components: Annotated[dict[ComponentName, Component], Field(min_length=1)]
     #: Input → source: an output of a component, or `profile.<name>`.
     inputs: Wires
     #: Inputs that come one macro step later under `one_sample_delay`.
     delayed: Columns = ()
     profiles: dict[str, tuple[Segment, ...]] = {}
-    cases: tuple[Case, ...]
+    cases: Annotated[tuple[Case, ...], Field(min_length=1)]
     #: Columns that are stored with the results; all when empty. Metrics and figures see every column.
     signals: Columns = ()
     metrics: tuple[Metric, ...] = ()
@@ -243,17 +260,19 @@ class Scenario(Data):
     @model_validator(mode="after")
     def _names_what_exists(self) -> Self:
         cases = [case.id for case in self.cases]
-        _unique("case", cases)
+        _unique("case", cases, folded=True)
         _unique("metric", [m.id for m in self.metrics] + [r.id for r in self.ratios])
-        _unique("figure", [f.id for f in self.figures])
+        _unique("figure", [f.id for f in self.figures], folded=True)
+        if self.id.casefold() in RESERVED:
+            raise ValueError(f"id {self.id} is the name of a file beside the results; expected another one")
+        if PROFILE in self.components:
+            raise ValueError(f"components.{PROFILE}: this name stands for the profiles; expected another one")
         for case in self.cases:
             owner = f"case {case.id}"
             _known(owner, "component", (key.split(".", 1)[0] for key in case.parameters), self.components)
             _known(owner, "profile", case.profiles, self.profiles)
             self._check_wiring(owner, self.inputs | case.inputs)
-            length = case.duration or self.duration
-            if not math.isclose(length / self.step, round(length / self.step), rel_tol=1e-9):
-                raise ValueError(f"{owner}: duration {length} s is no multiple of the step {self.step} s")
+            check_duration(owner, duration=case.duration or self.duration, step=self.step)
         for metric in self.metrics:
             owner = f"metric {metric.id}"
             _known(owner, "case", (*(metric.cases or ()), *metric.expected, *metric.paper), cases)
@@ -272,14 +291,33 @@ class Scenario(Data):
                 _known(owner, "component", [component], [PROFILE, *self.components])
 
 
-def _unique(kind: str, ids: list[str]) -> None:
+def check_duration(owner: str, *, duration: float, step: float) -> None:
+    """Whether a run of `duration` (s) is a whole number of steps (s), and more than one."""
+    steps = duration / step
+    if not math.isfinite(steps) or steps > MAX_STEPS:
+        raise ValueError(
+            f"{owner}: duration {duration} s is {steps:.3g} steps of {step} s; expected at most {MAX_STEPS:g}"
+        )
+    if not math.isclose(steps, round(steps), rel_tol=1e-9):
+        raise ValueError(f"{owner}: duration {duration} s is no multiple of the step {step} s")
+    if round(steps) < 2:
+        raise ValueError(f"{owner}: duration {duration} s is one step of {step} s; expected two or more")
+
+
+def _unique(kind: str, ids: list[str], *, folded: bool = False) -> None:
+    """No id stands twice; `folded`: nor differs from another by case only, because some file systems see no case."""
+    seen: dict[str, str] = {}
     for name in ids:
-        if ids.count(name) > 1:
+        key = name.casefold() if folded else name
+        if seen.get(key) == name:
             raise ValueError(f"{kind} id {name} stands twice")
+        if key in seen:
+            raise ValueError(f"{kind} ids {seen[key]} and {name} differ by case only; expected more")
+        seen[key] = name
 
 
 def _known(owner: str, kind: str, names: Iterable[str], known: Iterable[str]) -> None:
-    known = list(known)
+    known = frozenset(known)
     for name in names:
         if name not in known:
             raise ValueError(f"{owner}: unknown {kind} {name}{close_matches(name, known)}")
@@ -287,13 +325,17 @@ def _known(owner: str, kind: str, names: Iterable[str], known: Iterable[str]) ->
 
 def parse(*, text: str, origin: str, folder: Traversable | None = None) -> Scenario:
     """A scenario from TOML text; `origin` is the file's name for messages, `folder` where a path to a base starts."""
-    data = expansion.joined(expansion.read(text, origin=origin), origin=origin, folder=folder or Path())
-    data = expansion.expanded(data, origin=origin)
     try:
+        data = expansion.joined(expansion.read(text, origin=origin), origin=origin, folder=folder or Path())
+        data = expansion.expanded(data, origin=origin)
         # By way of JSON, where strict validation takes arrays for tuples.
         return Scenario.model_validate_json(json.dumps(data, default=str))
     except ValidationError as error:
         raise ScenarioError("\n".join(_sentences(error, origin, data))) from error
+    except RecursionError:
+        raise ScenarioError(
+            f"{origin}: nested too deeply; expected tables and arrays as in docs/scenarios.md"
+        ) from None
 
 
 def _sentences(error: ValidationError, origin: str, data: Any) -> list[str]:
@@ -303,14 +345,22 @@ def _sentences(error: ValidationError, origin: str, data: Any) -> list[str]:
         where = f"{origin}: {key}" if key else origin
         match problem["type"]:
             case "extra_forbidden":
-                lines.append(f"{where}: unknown key, with value {problem['input']!r}; expected one of the known keys")
+                lines.append(f"{where}: unknown key, with value {_quoted(problem)}; expected one of the known keys")
             case "missing":
                 lines.append(f"{where}: missing; expected a value")
             case "value_error":
                 lines.append(f"{where}: {problem['ctx']['error']}")
+            case "too_short":
+                lines.append(f"{where}: got none; expected at least {problem['ctx']['min_length']}")
             case _:
-                lines.append(f"{where}: got {problem['input']!r}; expected: {problem['msg']}")
-    return lines
+                lines.append(f"{where}: got {_quoted(problem)}; expected: {problem['msg']}")
+    more = [f"{origin}: and {len(lines) - TOLD} more problems"] if len(lines) > TOLD else []
+    return lines[:TOLD] + more
+
+
+def _quoted(problem: Any) -> str:
+    text = repr(problem["input"])
+    return text if len(text) <= QUOTED else f"{text[:QUOTED]}…"
 
 
 def _steps(place: tuple[int | str, ...], data: Any) -> Iterator[str]:
@@ -336,8 +386,9 @@ def load(name: str) -> Scenario:
         path = Path(name)
         if not path.is_file():
             raise ScenarioError(f"{name}: no such scenario file")
-        return parse(text=path.read_text(encoding="utf-8"), origin=path.name, folder=path.parent)
+        return parse(text=expansion.text_of(path, origin=path.name), origin=path.name, folder=path.parent)
     known = built_in()
     if name not in known:
         raise ScenarioError(f"unknown scenario {name}{close_matches(name, known)}")
-    return parse(text=known[name].read_text(encoding="utf-8"), origin=known[name].name, folder=expansion.home())
+    file = known[name]
+    return parse(text=expansion.text_of(file, origin=file.name), origin=file.name, folder=expansion.home())

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
-from pydantic import BeforeValidator, Field, ValidationError
+from pydantic import BeforeValidator, Field
 
 from exo import experiment, scenario
 from exo.errors import ScenarioError
@@ -85,7 +85,7 @@ def load(path: Path) -> Study:
     try:
         data = tomllib.loads(path.read_text(encoding="utf-8"))
         return Study.model_validate_json(json.dumps(data))
-    except (OSError, tomllib.TOMLDecodeError, ValidationError) as error:
+    except (OSError, ValueError, RecursionError) as error:  # ValueError: no UTF-8, no TOML, no study
         raise ScenarioError(f"{path}: {error}") from error
 
 

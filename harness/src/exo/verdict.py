@@ -26,14 +26,33 @@ class Result:
     source: str
     because: str
     paper: Published | None
+    #: What the command line changed and the expectation rests on: the number is information then.
+    void_by: tuple[str, ...] = ()
 
     def as_json(self) -> dict[str, Any]:
         """The entry of metrics.json, without its id. A value that is not a finite number is null."""
         entry = asdict(self)
         del entry["id"]
+        if not self.void_by:
+            del entry["void_by"]
         if not math.isfinite(self.value):
             entry["value"] = None
         return entry
+
+    @property
+    def margin(self) -> float | None:
+        """Distance from the value to the bound of what is expected, in the metric's unit; below zero is beyond it."""
+        tolerance = self.tolerance or 0.0
+        match self.kind, self.expected:
+            case "absolute", float(expected):
+                return tolerance - abs(self.value - expected)
+            case "relative", float(expected):
+                return tolerance * abs(expected) - abs(self.value - expected)
+            case "at_most", float(expected):
+                return expected + tolerance - self.value
+            case "at_least", float(expected):
+                return self.value - (expected - tolerance)
+        return None
 
     def expectation(self) -> str:
         """The expectation as text."""
@@ -68,13 +87,22 @@ def beside_the_paper(result: Result) -> Result:
         unit=result.unit,
         check=Check(value=paper.value, within=paper.within, relative=paper.relative, because=paper.because),
         source=f"{paper.label}: {paper.quantity}",
+        void_by=result.void_by,
     )
 
 
 def judge(
-    *, metric: str, title: str, value: float, unit: str, check: Check, source: str, paper: Published | None = None
+    *,
+    metric: str,
+    title: str,
+    value: float,
+    unit: str,
+    check: Check,
+    source: str,
+    paper: Published | None = None,
+    void_by: tuple[str, ...] = (),
 ) -> Result:
-    """Compares; a NaN fails whatever is expected."""
+    """Compares; a NaN fails whatever is expected. Where `void_by` names something, nothing is judged."""
     expected: float | None
     tolerance: float | None
     kind: Kind
@@ -93,7 +121,7 @@ def judge(
         good = value >= expected - slack
     else:
         kind, expected, tolerance, good = "none", None, None, True
-    verdict: Verdict = "info" if kind == "none" else "pass" if good else "fail"
+    verdict: Verdict = "info" if kind == "none" or void_by else "pass" if good else "fail"
     return Result(
         id=metric,
         title=title,
@@ -106,4 +134,5 @@ def judge(
         source=source,
         because=check.because,
         paper=paper,
+        void_by=void_by if kind != "none" else (),
     )

@@ -12,6 +12,8 @@ DOCUMENTS = ("README.md", "harness/README.md", *sorted(f"docs/{path.name}" for p
 #: What a run leaves, what an archive holds, and a unit.
 NOT_HERE = {
     "metrics.json": "results/<scenario>/",
+    "manifest.json": "results/<scenario>/",
+    "junit.xml": "results/<scenario>/",
     "figures/": "results/<scenario>/",
     "tune.json": "exo tune",
     "tune.png": "exo tune",

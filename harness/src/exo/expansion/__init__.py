@@ -16,9 +16,9 @@ from typing import Any
 from exo.errors import ScenarioError, close_matches
 from exo.expansion import entries, figures, wiring
 from exo.expansion.axes import Axes
-from exo.expansion.base import home, joined, read
+from exo.expansion.base import home, joined, read, text_of
 
-__all__ = ["expanded", "home", "joined", "read"]
+__all__ = ["expanded", "home", "joined", "read", "text_of"]
 
 
 def expanded(data: dict[str, Any], *, origin: str) -> dict[str, Any]:
@@ -60,6 +60,6 @@ def _check_components(components: Any, *, where: str) -> None:
         return
     there = [name for name, part in components.items() if not isinstance(part, dict) or "archive" in part]
     for name, part in components.items():
-        if name not in there and set(part) == {"parameters"}:
+        if name not in there and set(part) == {"parameters"} and isinstance(part["parameters"], dict):
             keys = ", ".join(f"{name}.{key}" for key in part["parameters"])
             raise ScenarioError(f"{where}: {keys}: unknown component {name}{close_matches(name, there)}")

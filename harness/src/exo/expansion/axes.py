@@ -13,6 +13,7 @@ import re
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from itertools import product
+from math import prod
 from typing import Any
 
 from exo.errors import ScenarioError, close_matches
@@ -22,6 +23,9 @@ PLACEHOLDER = re.compile(r"\{(\w+)(?:\.(\w+))?\}")
 TEXTS = ("id", "title", "label", "case", "y_label")
 #: Fields of an axis' value that are part of every case over it; so are names with a dot, which are parameters.
 OF_A_CASE = ("parameters", "inputs", "profiles", "coupling", "duration")
+
+#: Of one entry. Each combination is a run or a number that someone reads.
+MAX_COMBINATIONS = 10_000
 
 
 @dataclass(frozen=True)
@@ -88,6 +92,11 @@ class Axes:
                 self._axis(name, where=where)
                 names.append(name)
         chosen = self.only(over or {}, where=where)
+        number = prod(len(chosen[name]) for name in names)
+        if number > MAX_COMBINATIONS:
+            raise ScenarioError(
+                f"{where}: {' × '.join(names)} has {number} combinations; expected at most {MAX_COMBINATIONS}"
+            )
         for points in product(*(chosen[name] for name in names)):
             yield dict(zip(names, points, strict=True))
 

@@ -10,13 +10,33 @@ from exo.errors import ScenarioError, close_matches
 
 #: What is joined entry by entry, and how deep; everything else is replaced as a whole.
 JOINED = {"axes": 1, "inputs": 1, "profiles": 1, "known": 2, "components": 3}
+#: The largest scenario of the harness has a hundredth of it.
+MAX_BYTES = 1_000_000
+
+
+def text_of(file: Traversable, *, origin: str) -> str:
+    """A file's text; `origin` is its name for messages."""
+    try:
+        data = file.read_bytes()
+    except OSError as error:
+        raise ScenarioError(f"{origin}: cannot be read: {error.strerror or error}") from error
+    if len(data) > MAX_BYTES:
+        raise ScenarioError(f"{origin}: {len(data)} bytes; expected a scenario of at most {MAX_BYTES}")
+    try:
+        return data.decode("utf-8")
+    except UnicodeDecodeError as error:
+        line = data.count(b"\n", 0, error.start) + 1
+        byte = data[error.start]
+        raise ScenarioError(
+            f"{origin}: line {line}: byte 0x{byte:02x} is no UTF-8; expected a TOML file in UTF-8"
+        ) from None
 
 
 def read(text: str, *, origin: str) -> dict[str, Any]:
     """The tables of a TOML text, with `parameters` put where they belong: into the components."""
     try:
         data = tomllib.loads(text)
-    except tomllib.TOMLDecodeError as error:
+    except ValueError as error:  # beside TOMLDecodeError: an integer of thousands of digits
         raise ScenarioError(f"{origin}: not TOML: {error}") from error
     parameters = data.pop("parameters", {})
     if not isinstance(parameters, dict):
@@ -65,7 +85,7 @@ def joined(data: dict[str, Any], *, origin: str, folder: Traversable, above: tup
         raise ScenarioError(f"{origin}: base: no such file {name}; expected a path from the file's own folder")
     if str(file) in above:
         raise ScenarioError(f"{origin}: base: {name} starts from itself; expected bases that end")
-    base = read(file.read_text(encoding="utf-8"), origin=file.name)
+    base = read(text_of(file, origin=file.name), origin=file.name)
     start = folder / Path(name).parent if name.endswith(".toml") else home()
     base = joined(base, origin=file.name, folder=start, above=(*above, str(file)))
     base.pop("id", None)

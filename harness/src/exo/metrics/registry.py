@@ -1,10 +1,13 @@
 """Metric functions by name, and how a scenario calls them."""
 
 import inspect
+import json
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from exo.errors import ScenarioError, close_matches
+from pydantic import ConfigDict, TypeAdapter, ValidationError
+
+from exo.errors import ExoError, ScenarioError, close_matches
 from exo.recording import Recording
 
 Function = Callable[..., float]
@@ -28,7 +31,12 @@ def complete(function: str, arguments: Mapping[str, Any]) -> dict[str, Any]:
 def evaluate(*, recording: Recording, function: str, arguments: Mapping[str, Any], owner: str) -> float:
     """Calls a registered function; unknown names and wrong arguments are errors that name `owner`."""
     check(function=function, arguments=arguments, owner=owner)
-    return float(REGISTRY[function](recording, **complete(function, arguments)))
+    try:
+        return float(REGISTRY[function](recording, **complete(function, arguments)))
+    except ExoError:
+        raise
+    except Exception as error:  # a recording on which the function is not defined
+        raise ScenarioError(f"{owner}: {function}: {type(error).__name__}: {error}") from error
 
 
 def check(
@@ -42,6 +50,15 @@ def check(
         inspect.signature(REGISTRY[function]).bind(None, **full)
     except TypeError as error:
         raise ScenarioError(f"{owner}: {function}: {error}") from error
+    for name, value in full.items():
+        wanted = inspect.signature(REGISTRY[function]).parameters[name].annotation
+        try:
+            TypeAdapter(wanted, config=ConfigDict(allow_inf_nan=False)).validate_json(
+                json.dumps(value, default=str), strict=True
+            )
+        except ValidationError as error:
+            expected = error.errors(include_url=False)[0]["msg"]
+            raise ScenarioError(f"{owner}: {function}: {name}: got {str(value)[:80]}; expected: {expected}") from error
     for name in COMPONENTS:
         if components is not None and name in full and full[name] not in components:
             known = close_matches(str(full[name]), components)

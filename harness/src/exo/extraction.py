@@ -1,0 +1,85 @@
+"""Where archives lie extracted: a folder each, removed at the end; also, by the next run, that of a killed process.
+
+A folder is locked as long as its process lives, and appears under its name only when it is locked. So whoever can lock
+it may remove it. On systems without `flock` nothing is swept.
+"""
+
+import os
+import shutil
+import sys
+import tempfile
+from contextlib import suppress
+from pathlib import Path
+from types import TracebackType
+from typing import Self
+
+from exo.errors import FmuError
+from exo.validate.archive import Contents
+
+if sys.platform != "win32":
+    import fcntl
+
+PREFIX = "exo-fmu-"
+LOCK = "lock"
+
+
+class Extraction:
+    """The files of an archive in a folder of their own. Use with `with`."""
+
+    def __init__(self, contents: Contents) -> None:
+        self._contents = contents
+        self._root = Path()
+        self._lock = -1
+
+    @property
+    def folder(self) -> Path:
+        """Where the files are."""
+        return self._root / "fmu"
+
+    def __enter__(self) -> Self:
+        sweep()
+        try:
+            fresh = Path(tempfile.mkdtemp(prefix=f".{PREFIX}"))
+            self._root = fresh
+            self._lock = os.open(fresh / LOCK, os.O_CREAT | os.O_RDWR)
+            if sys.platform != "win32":
+                fcntl.flock(self._lock, fcntl.LOCK_EX)
+            self._root = fresh.rename(fresh.with_name(fresh.name.removeprefix(".")))
+            self._contents.extract(self.folder)
+        except OSError as error:
+            self.close()
+            reason = error.strerror or error
+            raise FmuError(
+                f"{self._contents.path}: cannot be extracted to {tempfile.gettempdir()}: {reason}"
+            ) from error
+        except BaseException:
+            self.close()
+            raise
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """Removes the folder."""
+        if self._root != Path():
+            shutil.rmtree(self._root, ignore_errors=True)
+        if self._lock >= 0:
+            os.close(self._lock)
+            self._lock = -1
+
+
+def sweep() -> None:
+    """Removes what processes left behind that an FMU or a signal has ended."""
+    if sys.platform == "win32":
+        return
+    for folder in Path(tempfile.gettempdir()).glob(f"{PREFIX}*"):
+        with suppress(OSError):
+            lock = os.open(folder / LOCK, os.O_RDWR | os.O_NOFOLLOW)
+            try:
+                fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+                shutil.rmtree(folder, ignore_errors=True)
+            finally:
+                os.close(lock)

@@ -1,0 +1,159 @@
+"""What the commands print: tables that no pipe cuts, and the numbers of a run."""
+
+import io
+import math
+import os
+import signal
+import sys
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import typer
+from rich.console import Console
+from rich.table import Table
+from rich.text import Text
+
+from exo.compare import Difference
+from exo.errors import ExoError
+from exo.experiment import Experiment
+from exo.verdict import Result
+
+#: More than any table has.
+ENDLESS = 100_000
+ORDER = ("fail", "info", "pass")
+COLORS = {"pass": "green", "fail": "bold red", "info": "blue"}
+#: The shell's codes of a command that Ctrl-C, that a pipe's other end and that SIGTERM have ended.
+INTERRUPTED, BROKEN_PIPE, TERMINATED = 130, 141, 143
+
+console = Console(highlight=False, soft_wrap=True)
+errors = Console(stderr=True, highlight=False, soft_wrap=True)
+
+
+def take_any_letter() -> None:
+    """A terminal or a pipe that knows no ≥ gets `\\u2265`."""
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):
+            stream.reconfigure(errors="backslashreplace")
+
+
+@contextmanager
+def sentences() -> Iterator[None]:
+    """Turns errors that are meant for the user into one message and exit code 2."""
+    main = threading.current_thread() is threading.main_thread()
+    before = signal.signal(signal.SIGTERM, _terminated) if main else None
+    try:
+        yield
+    except ExoError as error:
+        errors.print(f"exo: {error}", markup=False)
+        raise typer.Exit(2) from error
+    except MemoryError as error:
+        errors.print("exo: out of memory; expected fewer cases, a shorter duration or a longer step", markup=False)
+        raise typer.Exit(2) from error
+    except BrokenPipeError as error:
+        # Who reads has seen enough, as `head`. What is still buffered has nowhere to go.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        raise typer.Exit(BROKEN_PIPE) from error
+    except OSError as error:
+        where = f"{error.filename}: " if error.filename else ""
+        errors.print(f"exo: {where}{error.strerror or error}", markup=False)
+        raise typer.Exit(2) from error
+    except (typer.Exit, typer.Abort, typer.BadParameter):
+        raise
+    except KeyboardInterrupt as error:
+        errors.print("exo: interrupted; what was finished before stays", markup=False)
+        raise typer.Exit(INTERRUPTED) from error
+    except Exception as error:
+        if os.environ.get("EXO_TRACEBACK"):
+            raise
+        said = " ".join(str(error).split())
+        errors.print(
+            f"exo: an error of exo itself: {type(error).__name__}: {said}; EXO_TRACEBACK=1 shows where it is",
+            markup=False,
+        )
+        raise typer.Exit(2) from error
+    finally:
+        if main:
+            signal.signal(signal.SIGTERM, before)
+
+
+def _terminated(_signal: int, _frame: object) -> None:
+    """SIGTERM ends the process as an exception does: what is open is closed, folders are removed."""
+    raise SystemExit(TERMINATED)
+
+
+def table(*headers: str) -> Table:
+    """A table; `add` its rows."""
+    return Table(*headers, box=None, pad_edge=False)
+
+
+def add(found: Table, *cells: str) -> None:
+    """A row of plain text: `[` is no markup."""
+    found.add_row(*(Text(cell) for cell in cells))
+
+
+def print_table(found: Table) -> None:
+    """Prints it, a row a line, as wide as it is: a pipe has no width, and a terminal goes on in its next line."""
+    wide = Console(width=ENDLESS, highlight=False)
+    with wide.capture() as lines:
+        wide.print(found)
+    typer.echo("\n".join(line.rstrip() for line in lines.get().splitlines()))
+
+
+def number(value: float | None) -> str:
+    """Six digits; what is undefined says so."""
+    return "undefined" if value is None or not math.isfinite(value) else f"{value:.6g}"
+
+
+def print_run(
+    done: Experiment, *, folder: Path, shown: tuple[str, ...] = ("fail", "info", "pass"), unwired: bool = True
+) -> None:
+    """Verdict and counts, then the numbers whose verdict is to be shown, and where the pictures lie."""
+    counts = {v: sum(r.verdict == v for r in done.results) for v in COLORS}
+    verdict = "pass" if done.passed else "fail"
+    simulated = sum(plan.duration for plan in done.plans.values())
+    computing = sum(run.wall_time for run in done.recordings.values())
+    console.print(
+        f"[{COLORS[verdict]}]{verdict}[/] {done.scenario.id}: {counts['pass']} pass, {counts['fail']} fail, "
+        f"{counts['info']} info; {simulated:.0f} s simulated in {computing:.2f} s"
+    )
+    results = sorted((r for r in done.results if r.verdict in shown), key=lambda result: ORDER.index(result.verdict))
+    if results:
+        rows = table("", "metric", "value", "unit", "expected", "margin")
+        for result in results:
+            add(rows, f"  {result.verdict}", result.id, number(result.value), result.unit, *_judged(result))
+        print_table(rows)
+    failed: dict[str, dict[str, None]] = {}
+    for result in done.results:
+        if result.verdict == "fail":
+            failed.setdefault(result.source, {})[result.id.split("/")[0]] = None
+    for source, names in failed.items():
+        console.print(f"  {', '.join(names)} expected by: {source}", markup=False)
+    changed = sorted({name for result in done.results for name in result.void_by})
+    if changed:
+        console.print(f"  expectations in brackets hold without {', '.join(changed)}", markup=False)
+    if done.unwired and unwired:
+        console.print(f"  not wired, at their start values: {', '.join(done.unwired)}", markup=False)
+    pictures = [f"{figure.id}.png" for figure in done.scenario.figures]
+    console.print(f"  results: {folder}{': ' if pictures else ''}{', '.join(pictures)}", markup=False)
+
+
+def print_differences(beyond: list[Difference]) -> None:
+    """Numbers and signals of two results that differ."""
+    if not beyond:
+        return
+    rows = table("kind", "name", "a", "b", "unit", "difference")
+    for d in beyond:
+        numbers = ("–" if x is None else f"{x:.9g}" for x in (d.a, d.b))
+        add(rows, d.kind, d.name, *numbers, d.unit, f"{d.share:.3g}" if math.isfinite(d.share) else d.why)
+    print_table(rows)
+
+
+def _judged(result: Result) -> tuple[str, str]:
+    """Expectation and margin."""
+    if result.kind == "none":
+        return "–", "–"
+    if result.void_by:
+        return f"({result.expectation()})", "–"
+    return result.expectation(), number(result.margin)
