@@ -8,13 +8,13 @@ import os
 import shutil
 import sys
 import tempfile
-from contextlib import suppress
+from contextlib import ExitStack, suppress
 from pathlib import Path
 from types import TracebackType
 from typing import Self
 
 from exo.errors import FmuError
-from exo.validate.archive import Contents
+from exo.validate.archive import Contents, open_archive
 
 if sys.platform != "win32":
     import fcntl
@@ -23,11 +23,22 @@ PREFIX = "exo-fmu-"
 LOCK = "lock"
 
 
+def opened(path: Path, stack: ExitStack) -> Contents:
+    """What an archive holds that is safe to extract; it stays open until the stack is left."""
+    contents, found = open_archive(path, stack)
+    if contents is None:
+        first = next(finding for finding in found if finding.severity == "error")
+        raise FmuError(
+            f"{path}: no FMU that is safe to extract: {first.where}: {first.value}; expected {first.expected}"
+        )
+    return contents
+
+
 class Extraction:
     """The files of an archive in a folder of their own. Use with `with`."""
 
-    def __init__(self, contents: Contents) -> None:
-        self._contents = contents
+    def __init__(self, path: Path) -> None:
+        self._path = path
         self._root = Path()
         self._lock = -1
 
@@ -45,13 +56,12 @@ class Extraction:
             if sys.platform != "win32":
                 fcntl.flock(self._lock, fcntl.LOCK_EX)
             self._root = fresh.rename(fresh.with_name(fresh.name.removeprefix(".")))
-            self._contents.extract(self.folder)
+            with ExitStack() as stack:
+                opened(self._path, stack).extract(self.folder)
         except OSError as error:
             self.close()
             reason = error.strerror or error
-            raise FmuError(
-                f"{self._contents.path}: cannot be extracted to {tempfile.gettempdir()}: {reason}"
-            ) from error
+            raise FmuError(f"{self._path}: cannot be extracted to {tempfile.gettempdir()}: {reason}") from error
         except BaseException:
             self.close()
             raise

@@ -28,8 +28,7 @@ from fmpy.logging import addLoggerProxy
 from numpy.typing import NDArray
 
 from exo.errors import FmuError, close_matches
-from exo.extraction import Extraction
-from exo.validate.archive import Contents, open_archive
+from exo.extraction import Extraction, opened
 
 Kind = Literal["Real", "Integer", "Boolean"]
 #: How the values of each kind lie in memory.
@@ -63,10 +62,11 @@ class Archive:
         if not path.is_file():
             raise FmuError(f"{path}: no such FMU: run `cargo xtask fmu` first")
         self.path = path
-        self._contents = _contents(path)
+        with ExitStack() as stack:
+            self._files = tuple(opened(path, stack).files)
         self.description: Any = _description(path)
         self.variables: dict[str, Any] = {v.name: v for v in self.description.modelVariables}
-        self._extraction = Extraction(self._contents)
+        self._extraction = Extraction(path)
 
     def __enter__(self) -> Self:
         self._extraction.__enter__()
@@ -86,8 +86,8 @@ class Archive:
     def library(self) -> Path:
         """The extracted library of this machine."""
         name = f"binaries/{fmpy.platform}/{self.description.coSimulation.modelIdentifier}{fmpy.sharedLibraryExtension}"
-        if name not in self._contents.files:
-            there = ", ".join(file for file in self._contents.files if file.startswith("binaries/")) or "no library"
+        if name not in self._files:
+            there = ", ".join(file for file in self._files if file.startswith("binaries/")) or "no library"
             raise FmuError(f"{self.path}: expected {name} for this machine; the archive has {there}")
         return self._extraction.folder / name
 
@@ -153,16 +153,6 @@ def choices(variable: Any) -> dict[str, int]:
         return {str(item.name): int(item.value) for item in variable.declaredType.items}
     listed = re.search(r": (\d+ \w+(?:, \d+ \w+)+)$", variable.description or "")
     return {name: int(number) for number, name in (item.split() for item in listed[1].split(", "))} if listed else {}
-
-
-def _contents(path: Path) -> Contents:
-    contents, found = open_archive(path)
-    if contents is None:
-        first = next(finding for finding in found if finding.severity == "error")
-        raise FmuError(
-            f"{path}: no FMU that is safe to extract: {first.where}: {first.value}; expected {first.expected}"
-        )
-    return contents
 
 
 def _description(path: Path) -> Any:
