@@ -21,7 +21,7 @@
 //! r = K/(M K_P): see [`least_damping`], the tuning rule for a passive port (f_h ; dq).
 //!
 //! Sampled (T; dq the backward difference; e = q_d − q; the model by the midpoint rule, the coupling as in
-//! [`midpoint`]):
+//! [`midpoint`](crate::midpoint)):
 //!
 //! ```text
 //! v_m = v_d + T(f_h − D_n dq)/(2 M),   v_d⁺ = 2 v_m − v_d,   q_d⁺ = q_d + T v_m

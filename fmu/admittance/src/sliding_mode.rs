@@ -15,7 +15,7 @@
 //! overshoot as long as f_max can brake it, (q_n − q)/H² ≤ f_max/M.
 //!
 //! Sampled by implicit Euler in b, with the errors predicted for the middle of the sample as in
-//! [`midpoint`], de = v_m − dq and e = q_n − q + T de/2:
+//! [`midpoint`](crate::midpoint), de = v_m − dq and e = q_n − q + T de/2:
 //!
 //! ```text
 //! tau ∈ f_max Sgn(e + H de − b⁺ − H(b⁺ − b)/T),   tau = K((b⁺ − b)/T + K_P b⁺)

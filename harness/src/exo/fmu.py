@@ -7,6 +7,7 @@ NumPy buffers, because fmpy's convenience calls cost more than the models.
 import os
 import re
 from collections import deque
+from contextlib import ExitStack
 from ctypes import byref, c_char_p, c_double, c_int, c_size_t, c_void_p
 from itertools import count
 from math import isfinite
