@@ -23,11 +23,11 @@ int main(void)
 {
     static exo_arm_parameters arm_parameters;
     static exo_arm_state arm;
-    static exo_arm_inputs arm_inputs = {.q = {0.0, -1.48096, 1.70138}, .ft_valid = 1, .engage = 1};
+    static exo_arm_inputs arm_inputs = {.q = {0.0, -1.48096, 1.70138}, .ft_valid = 1, .encoder_valid = 1, .engage = 1};
     static exo_arm_outputs arm_outputs;
     static exo_axis_parameters axis_parameters;
     static exo_axis_state axis;
-    static exo_axis_inputs axis_inputs = {.engage = 1};
+    static exo_axis_inputs axis_inputs = {.engage = 1, .encoder_valid = 1};
     static exo_axis_outputs axis_outputs;
 
     int refused = exo_arm_defaults(&arm_parameters) || exo_arm_init(&arm, &arm_parameters, 0);

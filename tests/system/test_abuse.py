@@ -41,7 +41,7 @@ CASES = {
     "Testbed": (3.0, {}),
     "ArmController": (0.3, {}),
     "ExoskeletonArm": (30.0, {}),
-    "HumanOperator": (0.1, {"k_h": 100.0, "b_h": 1.0, "delay": 0.002}),
+    "HumanOperator": (0.1, {"k_h": 100.0, "b_h": 1.0, "delay": 0.002, "intended_from_start": False}),
 }
 
 

@@ -24,7 +24,7 @@ LONG_NAME = "controller.a_name_that_is_longer_than_a_terminal_is_wide.and_goes_o
 def table(path: Path, values: list[float], name: str = LONG_NAME, unit: str = "N") -> Path:
     fields = [pa.field("time", pa.float64()), pa.field(name, pa.float64(), metadata={"unit": unit})]
     columns = [pa.array(np.arange(float(len(values)))), pa.array(np.array(values))]
-    recording.write(pa.table(columns, schema=pa.schema(fields)), path)
+    recording.write(pa.table(columns, schema=pa.schema(fields)), path, csv=True)
     return path.with_suffix(".parquet")
 
 

@@ -68,7 +68,6 @@ def test_a_renamed_case_leaves_nothing_and_what_the_user_has_added_stays(
     exo("run", short, "--fmu-dir", fmu_dir, "--out", tmp_path / "out")
     assert {name for name in files(place) if name.startswith("signals/")} == {
         "signals/pull.parquet",
-        "signals/pull.csv",
         "signals/notes.txt",
     }
 
@@ -140,7 +139,7 @@ def test_a_killed_run_leaves_the_results_that_were_there(short: Path, tmp_path: 
     before = {name: (out / "short" / name).read_bytes() for name in files(out / "short")}
     short.write_text(many(LONG, 6, 10.0), encoding="utf-8")
     process = start(short, out, fmu_dir)
-    while process.poll() is None and not list(out.glob(".short.*/signals/*.csv")):
+    while process.poll() is None and not list(out.glob(".short.*/signals/*.parquet")):
         time.sleep(0.005)
     process.send_signal(signal.SIGKILL)
     process.communicate()
@@ -190,7 +189,7 @@ def test_nothing_is_put_into_place_where_writing_fails(
     exo("run", short, "--fmu-dir", fmu_dir, "--out", out)
     before = {name: (out / name).read_bytes() for name in files(out)}
 
-    def full(*_: object) -> None:
+    def full(*_: object, **__: object) -> None:
         raise OSError(28, "No space left on device", "push.parquet")
 
     monkeypatch.setattr(recording, "write", full)

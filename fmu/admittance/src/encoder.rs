@@ -135,6 +135,18 @@ pub struct Positions<const N: usize> {
     pub after: u32,
 }
 
+impl<const N: usize> Positions<N> {
+    /// What the law is told of them where nothing is wrong.
+    #[inline]
+    pub const fn believed(&self) -> Believed<N> {
+        Believed {
+            q: Some(self.q),
+            doubted: false,
+            fault: None,
+        }
+    }
+}
+
 /// How old the reading of an importer is, whose step may have several ticks or none.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -182,12 +194,13 @@ pub struct Encoders<const N: usize> {
     step: SVector<Real, N>,
     /// the change of a step that no robot makes, m or rad: a_max T², and at most v_max T
     change: SVector<Real, N>,
-    /// the last reading that was a number, m or rad
+    /// the last reading that was a number, where the law was told otherwise, m or rad
     read: Option<SVector<f64, N>>,
     /// the last position that the law was told
     told: Option<SVector<f64, N>>,
-    /// how it moved per tick
-    per_tick: SVector<f64, N>,
+    /// where it was `ticks` ticks before
+    before: SVector<f64, N>,
+    ticks: u32,
     /// doubtful readings in a row, or sound ones during a fault
     count: u32,
     fault: Option<Fault>,
@@ -197,6 +210,8 @@ pub struct Encoders<const N: usize> {
     moved_at: SVector<Real, N>,
     /// which position is stuck
     stuck: usize,
+    /// whether any may be
+    watches_standstill: bool,
 }
 
 impl<const N: usize> Encoders<N> {
@@ -211,16 +226,40 @@ impl<const N: usize> Encoders<N> {
                 .zip_map(&reach.a_max, |step, a_max| min(step, a_max * T * T)),
             read: None,
             told: None,
-            per_tick: SVector::zeros(),
+            before: SVector::zeros(),
+            ticks: 1,
             count: 0,
             fault: None,
             doubt: None,
             moved_at: SVector::zeros(),
             stuck: 0,
+            watches_standstill: checks.stuck.iter().any(|stuck| *stuck > 0.0),
         }
     }
 
+    /// Whether nothing is wrong with a reading, nor was with the one before: it is believed, and then [kept](Self::keep).
+    /// What is not sound is [read](Self::read).
+    #[inline]
+    pub fn is_sound(&self, reading: &Positions<N>) -> bool {
+        let Positions { q, valid, after } = reading;
+        *valid
+            && *after > 0
+            && self.fault.is_none()
+            && self.doubt.is_none()
+            && !self.watches_standstill
+            && (0..N).all(|i| abs(q[i] as Real) <= self.checks.range[i]) // no NaN either
+            && !self.jumps(self.told.as_ref(), q, *after)
+    }
+
+    /// Goes on from a reading that is sound.
+    #[inline]
+    pub fn keep(&mut self, reading: &Positions<N>) {
+        (self.before, self.ticks) = (self.told.unwrap_or(reading.q), reading.after);
+        self.told = Some(reading.q);
+    }
+
     /// What to believe of a `reading`, with the law in the loop or not, while it exerts `force` (N or N·m).
+    #[cold]
     pub fn read(
         &mut self,
         reading: &Positions<N>,
@@ -234,7 +273,7 @@ impl<const N: usize> Encoders<N> {
         if !q.iter().all(|q| q.is_finite()) {
             return self.lost(Fault::NotFinite);
         }
-        if after == 0 && self.read == Some(q) {
+        if after == 0 && self.last() == Some(q) {
             return self.again();
         }
         let after = after.max(1);
@@ -250,21 +289,27 @@ impl<const N: usize> Encoders<N> {
         if let Some(fault) = self.fault.filter(|fault| fault.lasts()) {
             return self.recovering(fault, found, &q, after);
         }
-        let jumped = self.jumps(self.told.as_ref(), &q, &self.per_tick, after);
+        let jumped = self.jumps(self.told.as_ref(), &q, after);
         self.read = Some(q);
         match found.or(jumped.then_some(Fault::Jump)) {
             None => {
-                self.per_tick = self
-                    .told
-                    .map_or_else(SVector::zeros, |told| (q - told) / f64::from(after));
-                self.believe(q)
+                self.follow(q, after);
+                self.believed()
             }
-            Some(Fault::Jump) if !in_loop => Believed {
-                fault: Some(Fault::Jump),
-                ..self.believe_at_rest(q)
-            },
+            Some(Fault::Jump) if !in_loop => {
+                self.start(q);
+                Believed {
+                    fault: Some(Fault::Jump),
+                    ..self.believed()
+                }
+            }
             Some(fault) => self.doubt(fault, in_loop, after),
         }
+    }
+
+    /// The last reading that was a number.
+    fn last(&self) -> Option<SVector<f64, N>> {
+        self.read.or(self.told)
     }
 
     /// Nothing is known as long as this is seen.
@@ -293,14 +338,15 @@ impl<const N: usize> Encoders<N> {
         after: u32,
     ) -> Believed<N> {
         let stuck = |read: SVector<f64, N>| (0..N).any(|i| i == self.stuck && read[i] == q[i]);
-        let stands = fault == Fault::Stuck && self.read.is_some_and(stuck);
+        let stands = fault == Fault::Stuck && self.last().is_some_and(stuck);
         let sound = found.is_none()
             && !stands
-            && !self.jumps(self.read.as_ref(), q, &SVector::zeros(), after);
+            && !self.last().is_some_and(|last| self.is_far(&last, q, after));
         self.count = if sound { self.count + 1 } else { 0 };
         self.read = Some(*q);
         if self.count >= self.checks.samples.max(1) {
-            self.believe_at_rest(*q)
+            self.start(*q);
+            self.believed()
         } else {
             self.failed(found.unwrap_or(fault))
         }
@@ -311,14 +357,15 @@ impl<const N: usize> Encoders<N> {
     fn doubt(&mut self, fault: Fault, in_loop: bool, after: u32) -> Believed<N> {
         self.count += 1;
         let lasting = fault == Fault::Stuck || !in_loop || self.count >= self.checks.samples;
-        match &mut self.told {
+        match self.told {
             Some(told) if !lasting => {
-                *told += self.per_tick * f64::from(after);
-                self.doubt = Some(fault);
+                let way = (told - self.before) * (f64::from(after) / f64::from(self.ticks));
+                (self.before, self.ticks) = (told, after);
+                (self.told, self.doubt) = (Some(told + way), Some(fault));
                 Believed {
-                    q: Some(*told),
+                    q: self.told,
                     doubted: true,
-                    fault: Some(fault),
+                    fault: self.doubt,
                 }
             }
             _ => {
@@ -337,47 +384,64 @@ impl<const N: usize> Encoders<N> {
         }
     }
 
-    fn believe(&mut self, q: SVector<f64, N>) -> Believed<N> {
-        (self.told, self.count) = (Some(q), 0);
-        (self.fault, self.doubt) = (None, None);
+    /// What the law is told of a position that is believed.
+    fn believed(&self) -> Believed<N> {
         Believed {
-            q: Some(q),
+            q: self.told,
             doubted: false,
             fault: None,
         }
     }
 
-    fn believe_at_rest(&mut self, q: SVector<f64, N>) -> Believed<N> {
-        self.per_tick = SVector::zeros();
-        self.believe(q)
+    /// Believes `q`, to which the robot has moved in this many ticks.
+    fn follow(&mut self, q: SVector<f64, N>, after: u32) {
+        (self.before, self.ticks) = (self.told.unwrap_or(q), after);
+        (self.told, self.read, self.count) = (Some(q), None, 0);
+        (self.fault, self.doubt) = (None, None);
     }
 
-    /// Whether the robot cannot have come from `from` to `q` in this many ticks, having moved by `before` per tick: faster than
-    /// it can, and not as it has moved.
-    fn jumps(
-        &self,
-        from: Option<&SVector<f64, N>>,
-        q: &SVector<f64, N>,
-        before: &SVector<f64, N>,
-        after: u32,
-    ) -> bool {
+    /// Believes `q`, of whose motion nothing is known.
+    fn start(&mut self, q: SVector<f64, N>) {
+        self.told = None;
+        self.follow(q, 1);
+    }
+
+    /// Whether the robot cannot have come from where it was told to be to `q` in this many ticks: faster than it can, and
+    /// not as it has moved.
+    #[inline]
+    fn jumps(&self, from: Option<&SVector<f64, N>>, q: &SVector<f64, N>, after: u32) -> bool {
+        from.is_some_and(|from| self.is_far(from, q, after) && self.is_other(from, q, after))
+    }
+
+    /// Whether a position has moved faster than it can.
+    #[inline]
+    fn is_far(&self, from: &SVector<f64, N>, q: &SVector<f64, N>, after: u32) -> bool {
         let ticks = after as Real;
-        let is_far = |i: usize, from: &SVector<f64, N>| {
+        let is_far = |i: usize| abs((q[i] - from[i]) as Real) > ticks * self.step[i];
+        self.checks.samples > 0 && (0..N).any(is_far)
+    }
+
+    /// Whether one that has moved faster than it can has moved otherwise than before.
+    #[cold]
+    fn is_other(&self, from: &SVector<f64, N>, q: &SVector<f64, N>, after: u32) -> bool {
+        let ticks = after as Real;
+        (0..N).any(|i| {
             let way = q[i] - from[i];
-            let other = way - before[i] * f64::from(after);
-            abs(way as Real) > ticks * self.step[i] && abs(other as Real) > ticks * self.change[i]
-        };
-        self.checks.samples > 0 && from.is_some_and(|from| (0..N).any(|i| is_far(i, from)))
+            let foretold = (from[i] - self.before[i]) * (f64::from(after) / f64::from(self.ticks));
+            abs(way as Real) > ticks * self.step[i]
+                && abs((way - foretold) as Real) > ticks * self.change[i]
+        })
     }
 
     /// Whether a position stands still while its force changes.
     fn is_stuck(&mut self, q: &SVector<f64, N>, force: &SVector<Real, N>) -> bool {
+        let last = self.last();
         let mut found = false;
         for i in 0..N {
             if self.checks.stuck[i] <= 0.0 {
                 continue;
             }
-            if self.read.is_none_or(|read| read[i] != q[i]) {
+            if last.is_none_or(|last| last[i] != q[i]) {
                 self.moved_at[i] = force[i];
             } else if abs(force[i] - self.moved_at[i]) >= self.checks.stuck[i] {
                 (found, self.stuck) = (true, i);

@@ -34,6 +34,8 @@ pub struct Rule {
     c: Real,
     /// K/alpha of the human's port
     port: Real,
+    /// K T (1 + K_P T/2)
+    exchange: Real,
 }
 
 /// What one sample of the law starts from.
@@ -78,6 +80,7 @@ impl Rule {
             lead,
             c: settings.reaction() * lead,
             port: settings.over_alpha(K),
+            exchange: K * T * lead,
         }
     }
 
@@ -153,7 +156,7 @@ impl Rule {
     /// K T (1 + K_P T/2)(v_m² + dq²)
     #[inline]
     pub fn exchanged(&self, sample: &Sample, v_m: Real) -> Real {
-        self.gains.K * self.T * self.lead * (v_m * v_m + sample.dq * sample.dq)
+        self.exchange * (v_m * v_m + sample.dq * sample.dq)
     }
 
     /// Energy (J) that the law is sure to take in a sample over which the robot gets the force `f` (N), while the nominal

@@ -210,28 +210,46 @@ impl ArmLaw {
         inputs: &ArmInputs,
         outputs: &mut ArmOutputs,
     ) -> Result<(), NotFinite> {
-        let mut encoders = self.encoders;
         let reading = Positions {
             q: inputs.q.into(),
             valid: inputs.encoder_valid != 0,
             after,
         };
-        let believed = encoders.read(&reading, self.counting.is_engaged(), &self.tau);
+        if self.encoders.is_sound(&reading) {
+            self.tick_at(&reading.believed(), inputs, outputs)?;
+            self.encoders.keep(&reading);
+        } else {
+            let mut encoders = self.encoders;
+            let believed = encoders.read(&reading, self.counting.is_engaged(), &self.tau);
+            self.tick_at(&believed, inputs, outputs)?;
+            self.encoders = encoders;
+        }
+        Ok(())
+    }
+
+    /// One tick with what is `believed` of the joint angles.
+    #[inline]
+    fn tick_at(
+        &mut self,
+        believed: &Believed<3>,
+        inputs: &ArmInputs,
+        outputs: &mut ArmOutputs,
+    ) -> Result<(), NotFinite> {
         let moves = believed
             .q
             .is_some_and(|q| self.counting.would_move(&q, self.may_engage(inputs)));
         if moves {
             // Seldom, and in single precision only: a tick that is refused leaves the origin where it was, too.
             let mut law = *self;
-            law.tick_believing(&believed, inputs, outputs)?;
+            law.tick_believing(believed, inputs, outputs)?;
             *self = law;
+            Ok(())
         } else {
-            self.tick_believing(&believed, inputs, outputs)?;
+            self.tick_believing(believed, inputs, outputs)
         }
-        self.encoders = encoders;
-        Ok(())
     }
 
+    #[inline]
     fn tick_believing(
         &mut self,
         believed: &Believed<3>,
@@ -303,15 +321,7 @@ impl ArmLaw {
         ran: &mut Ran,
     ) -> Result<(), NotFinite> {
         let Some(q) = q else {
-            if ran.encoder == Some(encoder::Fault::NotFinite) {
-                return Err(NotFinite);
-            }
-            let last = self.q;
-            self.turn(&mut ran.pose, &last);
-            let made = self.sensed(&last, inputs, ran);
-            self.abandon(ran);
-            self.conditioner.keep(&made);
-            return Ok(());
+            return self.blind(inputs, ran);
         };
         let demand = match (inputs.engage != 0, inputs.hold != 0) {
             (false, _) => Demand::Rest,
@@ -326,6 +336,20 @@ impl ArmLaw {
         self.conditioner.keep(&made);
         ran.outcome.outside_bounds |= doubted;
         ran.status = Status::of(demand);
+        Ok(())
+    }
+
+    /// The same without joint angles: it rests where it last knew the arm to be.
+    #[cold]
+    fn blind(&mut self, inputs: &ArmInputs, ran: &mut Ran) -> Result<(), NotFinite> {
+        if ran.encoder == Some(encoder::Fault::NotFinite) {
+            return Err(NotFinite);
+        }
+        let last = self.q;
+        self.turn(&mut ran.pose, &last);
+        let made = self.sensed(&last, inputs, ran);
+        self.abandon(ran);
+        self.conditioner.keep(&made);
         Ok(())
     }
 

@@ -338,7 +338,7 @@ STRUCTURE = [
     Mutant(
         "structure-index", "counted from 0", edit(f"{INITIAL}/Unknown[@dependencies='1']", dependencies="0"), fmpy=None
     ),
-    Mutant("structure-outputs", "an output twice", insert(OUTPUTS, '<Unknown index="6" dependencies=""/>')),
+    Mutant("structure-outputs", "an output twice", insert(OUTPUTS, '<Unknown index="7" dependencies=""/>')),
     Mutant(
         "structure-outputs", "an input among them", insert(OUTPUTS, '<Unknown index="1" dependencies=""/>'), fmpy=True
     ),
@@ -363,10 +363,10 @@ STRUCTURE = [
     Mutant(
         "structure-kind-real",
         "a discrete Boolean",
-        edit(f"{OUTPUTS}/Unknown[@index='10']", dependencies="1", dependenciesKind="discrete"),
+        edit(f"{OUTPUTS}/Unknown[@index='11']", dependencies="1", dependenciesKind="discrete"),
     ),
     Mutant("structure-dependencies-sorted", "descending", edit(f"{OUTPUTS}/Unknown", dependencies="2 1")),
-    Mutant("structure-dependencies-known", "on a parameter", edit(f"{OUTPUTS}/Unknown", dependencies="25")),
+    Mutant("structure-dependencies-known", "on a parameter", edit(f"{OUTPUTS}/Unknown", dependencies="28")),
     Mutant("structure-dependencies-known", "initially on an output", edit(f"{INITIAL}/Unknown", dependencies="7")),
 ]
 FOLDERS = [

@@ -92,13 +92,31 @@ impl OneAxis {
         inputs: &AxisInputs,
         outputs: &mut AxisOutputs,
     ) -> Result<(), NotFinite> {
-        let mut encoder = self.encoder;
         let reading = Positions {
             q: Vector1::new(inputs.q),
             valid: inputs.encoder_valid != 0,
             after,
         };
-        let believed = encoder.read(&reading, self.counting.is_engaged(), &self.f);
+        if self.encoder.is_sound(&reading) {
+            self.tick_at(&reading.believed(), inputs, outputs)?;
+            self.encoder.keep(&reading);
+        } else {
+            let mut encoder = self.encoder;
+            let believed = encoder.read(&reading, self.counting.is_engaged(), &self.f);
+            self.tick_at(&believed, inputs, outputs)?;
+            self.encoder = encoder;
+        }
+        Ok(())
+    }
+
+    /// One tick with what is `believed` of the position.
+    #[inline]
+    fn tick_at(
+        &mut self,
+        believed: &Believed<1>,
+        inputs: &AxisInputs,
+        outputs: &mut AxisOutputs,
+    ) -> Result<(), NotFinite> {
         let engage = inputs.engage != 0;
         let moves = believed
             .q
@@ -106,13 +124,12 @@ impl OneAxis {
         if moves {
             // Seldom, and in single precision only: a tick that is refused leaves the origin where it was, too.
             let mut law = *self;
-            law.tick_believing(&believed, inputs, outputs)?;
+            law.tick_believing(believed, inputs, outputs)?;
             *self = law;
+            Ok(())
         } else {
-            self.tick_believing(&believed, inputs, outputs)?;
+            self.tick_believing(believed, inputs, outputs)
         }
-        self.encoder = encoder;
-        Ok(())
     }
 
     fn tick_believing(
