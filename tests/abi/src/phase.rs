@@ -83,7 +83,9 @@ fn break_at_the_next_steps(fmu: &Fmu, instance: &Instance) {
             Status::OK
         );
     } else {
+        // A controller does not believe positions such as these: its forces alone.
         let inputs = fmu.variables.iter().filter(|v| v.causality == "input");
+        let inputs = inputs.filter(|v| !v.name.starts_with('q'));
         for (i, input) in inputs.filter(|v| v.kind == Kind::Real {}).enumerate() {
             let value = if i % 2 == 0 { f64::MAX } else { -f64::MAX };
             assert_eq!(instance.set_real(&[input.reference], &[value]), Status::OK);

@@ -88,6 +88,11 @@ impl Clocked {
         for &(reference, value) in &self.settings {
             assert_eq!(instance.set_real(&[reference], &[value]), Status::OK);
         }
+        if self.tick.is_some() {
+            // Jumps are doubted by the number of readings, which is that of the steps: not what is tried here.
+            let samples = [self.fmu.reference("encoder.samples")];
+            assert_eq!(instance.set_integer(&samples, &[0]), Status::OK);
+        }
         instance.initialize(start);
         instance
     }
