@@ -88,9 +88,8 @@ def steps(instance: Any, first: int, count: int) -> list[list[float]]:
 
 
 def initialize(instance: Any) -> None:
-    setters = {"Real": instance.setReal, "Boolean": instance.setBoolean}
     for name, value in settings.items():
-        setters.get(variables[name].type, instance.setInteger)([references[name]], [value])
+        (instance.setReal if variables[name].type == "Real" else instance.setInteger)([references[name]], [value])
     instance.setupExperiment(startTime=0.0)
     instance.enterInitializationMode()
     instance.exitInitializationMode()

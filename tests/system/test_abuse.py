@@ -35,13 +35,16 @@ EXPECTED = {
 }
 
 
-#: FMU → what every Real input is set to, and start values, so that the outputs move (a hand pulls after its delay).
+#: FMU → what every Real input is set to, and start values, so that the outputs move (the operator begins to push).
 CASES = {
     "TestbedController": (3.0, {}),
     "Testbed": (3.0, {}),
     "ArmController": (0.3, {}),
     "ExoskeletonArm": (30.0, {}),
-    "HumanOperator": (0.1, {"k_h": 100.0, "b_h": 1.0, "delay": 0.002, "intended_from_start": False}),
+    "HumanOperator": (
+        0.1,
+        {"segment[1].axis": 3, "segment[1].kind": 2, "segment[1].t_on": 0.01, "segment[1].amplitude": 6.0, "k_h": 9.0},
+    ),
 }
 
 
