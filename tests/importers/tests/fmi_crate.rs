@@ -124,18 +124,19 @@ impl<M: Model> Driven for Linked<M> {
 
     fn outputs(&mut self) -> Vec<u64> {
         let (mut reals, mut integers, mut booleans) = (Vec::new(), Vec::new(), Vec::new());
-        for row in M::DESCRIPTION
-            .variables
-            .iter()
-            .filter(|row| row.causality == Causality::Output)
-        {
-            match row.access {
-                Access::Real { at, .. } => reals.extend(at.values(&self.0).map(f64::to_bits)),
-                Access::Integer { at, .. } => {
-                    integers.extend(at.values(&self.0).map(|value| u64::from(value as u32)))
+        for scalar in M::DESCRIPTION.in_order() {
+            if scalar.variable.causality != Causality::Output {
+                continue;
+            }
+            let (model, i) = (&self.0, scalar.element);
+            match scalar.variable.access {
+                Access::Real { at, .. } => reals.push(at.get(model, i).to_bits()),
+                // A choice is an Integer in the description.
+                Access::Integer { at, .. } | Access::Enumeration { at, .. } => {
+                    integers.push(u64::from(at.get(model, i) as u32));
                 }
-                Access::Boolean { at } => booleans.extend(at.values(&self.0).map(u64::from)),
-                Access::String { .. } | Access::Enumeration { .. } => {}
+                Access::Boolean { at } => booleans.push(u64::from(at.get(model, i))),
+                Access::String { .. } => {}
             }
         }
         [reals, integers, booleans].concat()
