@@ -156,6 +156,11 @@ impl<const N: usize> Admittance<N> {
         }
     }
 
+    /// The force that the last tick said, N.
+    pub fn f(&self) -> &SVector<Real, N> {
+        self.sampled.tau()
+    }
+
     /// Energy stored and created, as of the last tick.
     pub fn ledger(&self) -> &Ledger<N> {
         self.sampled.ledger()

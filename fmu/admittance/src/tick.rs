@@ -341,6 +341,11 @@ impl<L: Coordinates<N>, const N: usize> Sampled<L, N> {
         &mut self.law
     }
 
+    /// What the actuators last got, N or N·m.
+    pub fn tau(&self) -> &SVector<Real, N> {
+        &self.tau
+    }
+
     /// Energy stored and created, as of the last tick; the work is the actuators'.
     pub fn ledger(&self) -> &Ledger<N> {
         &self.ledger

@@ -1,66 +1,34 @@
 //! The complete law of the arm: from what is sensed at a tick to the torques on the joints.
 //!
-//! It knows no FMI: the FMU ArmController and the C library are shells around it.
+//! It knows no FMI: the FMU ArmController and the C library are shells around it. Who decides whether it runs stands
+//! in [`decision`], what a tick shows in [`show`].
 
-use crate::choices::{DEBT, WRENCH};
+mod decision;
+mod show;
+
+use show::Ran;
+
+use crate::choices::WRENCH;
 use crate::displacement::Origin;
-use crate::joint_space::{JointSpace, Nominal};
+use crate::joint_space::JointSpace;
 use crate::kinematics::{Kinematics, Pose, sin_cos};
 use crate::parameters::{ArmParameters, Checked};
 use crate::signals::{ArmInputs, ArmOutputs};
 use crate::singularity::Singularity;
 use crate::space::InSpace;
-use crate::stiff_hand::{self, Detectors, StiffHandSeen};
-use crate::supervision::{self, Demand, Report, State, Status, Supervisor};
+use crate::stiff_hand::{self, Detectors};
+use crate::supervision::{Demand, Supervisor};
 use crate::task_space::TaskSpace;
 use crate::wrench::conditioner::{Made, Reading};
 use crate::wrench::frame::FixedFrame;
-use crate::wrench::{Conditioned, Conditioner, Fault, TareFailure, Wrench};
-use admittance::encoder::{self, Believed, Encoders, Positions};
+use crate::wrench::{Conditioned, Conditioner, Wrench};
+use admittance::encoder::{Believed, Encoders, Positions};
 use admittance::origin::{self, Move};
 use admittance::{Bounds, Ledger, ParameterError, Real, Request, real};
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Vector3;
 
 pub use crate::handle::{HandleTick, NotFinite};
 pub use crate::space::Space;
-
-/// What came of a tick, before it is shown.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Ran {
-    /// where the handle is
-    pose: Pose,
-    /// what the law did
-    outcome: HandleTick,
-    /// the nominal in joint coordinates; in task space, where it has none, the robot at rest, M_n 0
-    nominal: Nominal,
-    /// whether the nominal is slowed before a singularity
-    slowed: bool,
-    /// what is known of a stiff hand, after this tick
-    stiff_hand: StiffHandSeen,
-    /// what the law knows of the hand: about the handle, in the base frame
-    ft: Conditioned,
-    /// what is wrong with the joint angles
-    encoder: Option<encoder::Fault>,
-    /// what supervision says; without it, that the law does what `engage` and `hold` say
-    status: Status,
-}
-
-impl Default for Ran {
-    /// Nothing yet.
-    fn default() -> Self {
-        let zeros = Vector3::zeros();
-        Self {
-            pose: Pose::default(),
-            outcome: HandleTick::at_rest(&zeros, false),
-            nominal: Nominal::at(&zeros, Matrix3::zeros()),
-            slowed: false,
-            stiff_hand: StiffHandSeen::default(),
-            ft: Conditioned::default(),
-            encoder: None,
-            status: Status::of(Demand::Rest),
-        }
-    }
-}
 
 /// The law between two ticks.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -78,8 +46,6 @@ pub struct ArmLaw {
 
     supervisor: Option<Supervisor>,
     encoders: Encoders<3>,
-    /// what the joints last got, N·m
-    tau: Vector3<Real>,
     conditioner: Conditioner,
     stiff_hand: Detectors,
     law: InSpace,
@@ -114,7 +80,6 @@ impl ArmLaw {
             source: parameters.ft.source,
             conditioner: Conditioner::new(parameters.ft, T)?,
             encoders: parameters.encoder.checks(&reach, T),
-            tau: Vector3::zeros(),
             law: match space {
                 Space::Task => {
                     InSpace::Task(TaskSpace::new(settings, gains, bounds, reach, limits)?)
@@ -220,7 +185,7 @@ impl ArmLaw {
             self.encoders.keep(&reading);
         } else {
             let mut encoders = self.encoders;
-            let believed = encoders.read(&reading, self.counting.is_engaged(), &self.tau);
+            let believed = encoders.read(&reading, self.counting.is_engaged(), self.law.tau());
             self.tick_at(&believed, inputs, outputs)?;
             self.encoders = encoders;
         }
@@ -267,7 +232,6 @@ impl ArmLaw {
             self.unsupervised(inputs, q.as_ref(), believed.doubted, &mut ran)?;
         }
         self.counting.ticked(ran.outcome.engaged);
-        self.tau = ran.outcome.tau;
         self.show(&ran, outputs);
         Ok(())
     }
@@ -310,123 +274,6 @@ impl ArmLaw {
             self.count_from(&q_0).map_err(|_| NotFinite)?;
         }
         Ok(self.counting.counted(q))
-    }
-
-    /// One tick in which `engage` and `hold` decide. Without joint angles the law rests, and engages anew with them.
-    fn unsupervised(
-        &mut self,
-        inputs: &ArmInputs,
-        q: Option<&Vector3<Real>>,
-        doubted: bool,
-        ran: &mut Ran,
-    ) -> Result<(), NotFinite> {
-        let Some(q) = q else {
-            return self.blind(inputs, ran);
-        };
-        let demand = match (inputs.engage != 0, inputs.hold != 0) {
-            (false, _) => Demand::Rest,
-            (true, hold) => Demand::Run {
-                authority: 1.0,
-                freedom: if hold { 0.0 } else { 1.0 },
-            },
-        };
-        self.turn(&mut ran.pose, q);
-        let made = self.sensed(q, inputs, ran);
-        self.run(q, demand, ran)?;
-        self.conditioner.keep(&made);
-        ran.outcome.outside_bounds |= doubted;
-        ran.status = Status::of(demand);
-        Ok(())
-    }
-
-    /// The same without joint angles: it rests where it last knew the arm to be.
-    #[cold]
-    fn blind(&mut self, inputs: &ArmInputs, ran: &mut Ran) -> Result<(), NotFinite> {
-        if ran.encoder == Some(encoder::Fault::NotFinite) {
-            return Err(NotFinite);
-        }
-        let last = self.q;
-        self.turn(&mut ran.pose, &last);
-        let made = self.sensed(&last, inputs, ran);
-        self.abandon(ran);
-        self.conditioner.keep(&made);
-        Ok(())
-    }
-
-    /// One tick in which supervision decides. What cannot be trusted does not reach the law: without joint angles it rests
-    /// where it last knew the arm to be, without a force it feels none.
-    fn supervised(
-        &mut self,
-        inputs: &ArmInputs,
-        q: Option<&Vector3<Real>>,
-        doubted: bool,
-        ran: &mut Ran,
-    ) {
-        let is_seen = q.is_some() && (doubted || ran.encoder.is_none());
-        let q = q.map_or(self.q, |q| *q);
-        self.turn(&mut ran.pose, &q);
-        let made = self.sensed(&q, inputs, ran);
-        let demand = self.decided(&supervision::Inputs {
-            enable: inputs.enable != 0,
-            engage: inputs.engage != 0,
-            acknowledge: inputs.acknowledge != 0,
-            emergency_stop: inputs.emergency_stop != 0,
-            hold: inputs.hold != 0,
-            heartbeat: inputs.heartbeat,
-            ft_valid: ran.ft.fault.is_none(),
-            encoder_valid: is_seen,
-            force: ran.ft.hand.force.norm(),
-        });
-
-        let outcome = if demand == Demand::Rest && !is_seen {
-            self.abandon(ran);
-            Ok(())
-        } else {
-            self.run(&q, demand, ran)
-        };
-        let report = match outcome {
-            Ok(()) => {
-                self.conditioner.keep(&made);
-                ran.outcome.outside_bounds |= doubted;
-                Report {
-                    finite: true,
-                    debt: self.ledger().is_in_debt(),
-                    outside_bounds: ran.outcome.outside_bounds,
-                    saturated: ran.outcome.saturated,
-                }
-            }
-            Err(NotFinite) => {
-                self.abandon(ran);
-                Report::NOT_FINITE
-            }
-        };
-        if let Some(supervisor) = &mut self.supervisor {
-            ran.status = supervisor.judge(&report);
-        }
-    }
-
-    /// What supervision demands; without it, rest.
-    fn decided(&mut self, inputs: &supervision::Inputs) -> Demand {
-        match &mut self.supervisor {
-            Some(supervisor) => supervisor.step(inputs),
-            None => Demand::Rest,
-        }
-    }
-
-    /// No torque, the nominal where the arm was last known to be.
-    #[cold]
-    fn abandon(&mut self, ran: &mut Ran) {
-        let Ran {
-            pose,
-            outcome,
-            nominal,
-            ..
-        } = ran;
-        self.turn(pose, &self.q);
-        self.stiff_hand.rest();
-        self.law.abandon(pose, &self.q, outcome, nominal);
-        ran.slowed = false;
-        ran.stiff_hand = self.stiff_hand.known();
     }
 
     /// What the law does at joint angles `q` (rad), with the pose and the hand in `ran`; judged by nobody. After an error
@@ -513,67 +360,6 @@ impl ArmLaw {
             ..hand
         };
         made
-    }
-
-    fn show(&self, ran: &Ran, outputs: &mut ArmOutputs) {
-        let Ran {
-            pose,
-            outcome,
-            nominal,
-            slowed,
-            stiff_hand,
-            ft,
-            encoder,
-            status,
-        } = ran;
-        let absolute = |p: &Vector3<Real>| self.origin().map_or(*p, |p_0| p_0 + p).into();
-        outputs.tau_a = outcome.tau.into();
-        outputs.tau_demand = outcome.tau_demand.into();
-        outputs.f_a = outcome.f_a.into();
-        outputs.p = absolute(&pose.p);
-        outputs.dp = outcome.dp.into();
-        outputs.p_n = absolute(&outcome.p_n);
-        outputs.dp_n = outcome.dp_n.into();
-        outputs.e_nr = outcome.e_nr.into();
-        outputs.sigma_min = pose.sigma_min;
-        outputs.saturated = outcome.saturated.into();
-        outputs.held = outcome.held.into();
-        outputs.outside_bounds = outcome.outside_bounds.into();
-        outputs.engaged = outcome.engaged.into();
-        outputs.slowed = i32::from(*slowed);
-        outputs.q_n = self.absolute(&nominal.q_n).into();
-        outputs.dq_n = nominal.dq_n.into();
-        outputs.e_q = nominal.e_nr.into();
-        outputs.M_n = core::array::from_fn(|i| nominal.M_n[(i / 3, i % 3)]);
-        outputs.stiff_hand_detected = stiff_hand.detected.into();
-        outputs.stiff_hand_D = stiff_hand.D.into();
-        outputs.stiff_hand_k_h = stiff_hand.k_h.into();
-        outputs.encoder_fault = encoder.map_or(0, encoder::Fault::number);
-        outputs.state = match status.state {
-            State::Engaged | State::Hold if self.ledger().is_in_debt() => DEBT,
-            state => state.number(),
-        };
-        outputs.diagnostic = status.diagnostic.number();
-        outputs.first_fault = status.first_fault.number();
-        outputs.authority = status.authority;
-        let ledger = self.ledger();
-        outputs.H = ledger.H();
-        outputs.G = ledger.G();
-        outputs.tank = ledger.tank();
-        outputs.debt = ledger.is_in_debt().into();
-        outputs.share = outcome.share;
-        self.show_hand(ft, outputs);
-    }
-
-    fn show_hand(&self, ft: &Conditioned, outputs: &mut ArmOutputs) {
-        outputs.ft_f_h = ft.hand.force.into();
-        outputs.ft_moment = ft.hand.torque.into();
-        outputs.ft_fault = ft.fault.map_or(0, Fault::number);
-        outputs.ft_tare_state = ft.tare.number();
-        outputs.ft_tare_failure = ft.tare.failure().map_or(0, TareFailure::number);
-        let bias = self.conditioner.bias();
-        outputs.ft_bias_force = bias.force.into();
-        outputs.ft_bias_torque = bias.torque.into();
     }
 
     /// What the hand's force sensor reads when nothing acts on it, as far as a tare has found it; sensor frame.

@@ -122,6 +122,14 @@ impl InSpace {
         }
     }
 
+    /// What the joints last got, N·m.
+    pub fn tau(&self) -> &Vector3<Real> {
+        match self {
+            Self::Task(law) => law.tau(),
+            Self::Joint(law) => law.tau(),
+        }
+    }
+
     /// Energy stored and created, as of the last tick.
     pub fn ledger(&self) -> &Ledger<3> {
         match self {

@@ -143,6 +143,11 @@ impl TaskSpace {
         *shown = HandleTick::at_rest(&pose.p, outside);
     }
 
+    /// What the joints last got, N·m.
+    pub fn tau(&self) -> &Vector3<Real> {
+        self.sampled.tau()
+    }
+
     /// Energy stored and created, as of the last tick; the work is that at the joints.
     pub fn ledger(&self) -> &Ledger<3> {
         self.sampled.ledger()

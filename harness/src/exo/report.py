@@ -11,6 +11,7 @@ from typing import Any
 import jinja2
 
 from exo.errors import ExoError
+from exo.folder import write_file
 from exo.paper import Published
 from exo.results import SCHEMA_ID
 from exo.scenario import Figure, load
@@ -43,7 +44,7 @@ def write(*, out: Path, scenarios: list[str]) -> Path:
         counts={v: sum(s["counts"][v] for s in sections) for v in ("pass", "fail", "info")},
     )
     path = out / "report.html"
-    path.write_text(page, encoding="utf-8")
+    write_file(path, page.encode())
     return path
 
 

@@ -28,8 +28,6 @@ pub struct OneAxis {
     encoder: Encoders<1>,
     /// the last position that was believed, m, as it is counted
     q: Vector1<Real>,
-    /// the last force, N
-    f: Vector1<Real>,
 }
 
 impl OneAxis {
@@ -56,7 +54,6 @@ impl OneAxis {
             counting: Origin::default(),
             encoder,
             q: Vector1::zeros(),
-            f: Vector1::zeros(),
         })
     }
 
@@ -102,7 +99,7 @@ impl OneAxis {
             self.encoder.keep(&reading);
         } else {
             let mut encoder = self.encoder;
-            let believed = encoder.read(&reading, self.counting.is_engaged(), &self.f);
+            let believed = encoder.read(&reading, self.counting.is_engaged(), self.law.f());
             self.tick_at(&believed, inputs, outputs)?;
             self.encoder = encoder;
         }
@@ -181,7 +178,6 @@ impl OneAxis {
         }
         outputs.encoder_fault = believed.fault.map_or(0, Fault::number);
         self.q = q.unwrap_or(self.q);
-        self.f.x = outputs.tau_a;
         self.counting.ticked(engage);
         let ledger = self.law.ledger();
         outputs.H = ledger.H();

@@ -184,6 +184,11 @@ impl JointSpace {
         *nominal = Nominal::at(q, self.sampled.law().M_n(&pose.sin_cos));
     }
 
+    /// What the joints last got, N·m.
+    pub fn tau(&self) -> &Vector3<Real> {
+        self.sampled.tau()
+    }
+
     /// Energy stored and created, as of the last tick.
     pub fn ledger(&self) -> &Ledger<3> {
         self.sampled.ledger()

@@ -1,0 +1,66 @@
+//! Positions that cannot be: what reaches the robot.
+
+use crate::{initialized, tick};
+use admittance::encoder::Fault;
+use testbed_controller::TestbedController;
+
+/// A mass of 6 kg without friction in the loop for a second, pushed with 2 N; then the position reads `error` (m) too much
+/// for `samples` samples. The forces from there on, and the controller.
+fn misread(law: i32, error: f64, samples: u32) -> (Vec<f64>, TestbedController) {
+    let mut c = initialized(|c| (c.parameters.law, c.inputs.tau_h) = (law, 2.0));
+    let (mut q, mut dq) = (0.0, 0.0);
+    let mut forces = Vec::new();
+    for k in 0..520 {
+        c.inputs.q = q + error * f64::from(u8::from((500..500 + samples).contains(&k)));
+        tick(&mut c, k);
+        dq += (c.outputs.tau_a + 2.0) / 6.0 * 0.002;
+        q += dq * 0.002;
+        if k >= 500 {
+            forces.push(c.outputs.tau_a);
+        }
+    }
+    (forces, c)
+}
+
+#[test]
+fn one_wrong_position_changes_no_force_by_more_than_its_motion_would() {
+    for law in 1..=4 {
+        let (right, _) = misread(law, 0.0, 0);
+        // It goes on at its last velocity. After n samples that is wrong by a n T, and the way back is a (n T)²/2 in one
+        // sample: K a T (n + n²/2), with K a T = 30 N·s/m · 0.4 m/s² · 2 ms = 0.024 N.
+        for (error, samples, most) in [(0.5, 1, 0.036), (-0.03, 1, 0.036), (1e3, 4, 0.288)] {
+            let (forces, c) = misread(law, error, samples);
+            for (force, right) in forces.iter().zip(&right) {
+                assert!(
+                    (force - right).abs() < most,
+                    "law {law}, {error} m: {force} N, {right} N"
+                );
+            }
+            assert_eq!((c.outputs.encoder_fault, c.outputs.debt), (0, 0));
+        }
+    }
+}
+
+#[test]
+fn a_position_that_stays_wrong_takes_the_force_and_the_law_engages_anew() {
+    for law in 1..=4 {
+        let (forces, c) = misread(law, 0.5, 20);
+        assert!(forces[..4].iter().all(|force| force.abs() > 0.0));
+        assert_eq!(forces[4..9], [0.0; 5]);
+        assert!(forces[9].abs() < 0.1, "{forces:?}"); // from rest, pushed with 2 N; then it brakes the moving mass
+        assert_eq!((c.outputs.engaged, c.outputs.encoder_fault), (1, 0));
+    }
+}
+
+#[test]
+fn a_position_marked_invalid_gives_no_force_and_says_why() {
+    let (_, mut c) = misread(4, 0.0, 0);
+    c.inputs.encoder_valid = 0;
+    tick(&mut c, 520);
+    assert_eq!((c.outputs.tau_a, c.outputs.engaged), (0.0, 0));
+    assert_eq!(c.outputs.encoder_fault, Fault::Invalid.number());
+    c.inputs.q = 1e300;
+    c.inputs.encoder_valid = 1;
+    tick(&mut c, 521);
+    assert_eq!(c.outputs.encoder_fault, Fault::OverRange.number());
+}
