@@ -38,6 +38,13 @@ pub struct Checks<const N: usize> {
     pub samples: u32,
 }
 
+impl<const N: usize> Checks<N> {
+    /// Whether no position is watched for standing still.
+    fn watches_nothing(&self) -> bool {
+        self.stuck.iter().all(|stuck| *stuck <= 0.0)
+    }
+}
+
 /// A reading of all encoders.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Positions<const N: usize> {
@@ -104,7 +111,7 @@ pub struct Believed<const N: usize> {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Encoders<const N: usize> {
     checks: Checks<N>,
-    /// v_max T, m or rad, with the rounding that the reach allows for
+    /// v_max T, m or rad, with the rounding that the reach allows for; infinite where jumps are believed
     step: SVector<Real, N>,
     /// the change of a step that no robot makes, m or rad: a_max T², and at most v_max T
     change: SVector<Real, N>,
@@ -124,8 +131,8 @@ pub struct Encoders<const N: usize> {
     moved_at: SVector<Real, N>,
     /// which position is stuck
     stuck: usize,
-    /// whether any may be
-    watches_standstill: bool,
+    /// whether nothing is wrong and no position may be stuck
+    is_quiet: bool,
 }
 
 impl<const N: usize> Encoders<N> {
@@ -134,7 +141,12 @@ impl<const N: usize> Encoders<N> {
     pub fn new(checks: Checks<N>, reach: &Reach<N>, T: Real) -> Self {
         Self {
             checks,
-            step: reach.steps(T),
+            // Where jumps are believed no step is too long.
+            step: if checks.samples > 0 {
+                reach.steps(T)
+            } else {
+                SVector::repeat(Real::INFINITY)
+            },
             change: reach
                 .steps(T)
                 .zip_map(&reach.a_max, |step, a_max| min(step, a_max * T * T)),
@@ -147,7 +159,7 @@ impl<const N: usize> Encoders<N> {
             doubt: None,
             moved_at: SVector::zeros(),
             stuck: 0,
-            watches_standstill: checks.stuck.iter().any(|stuck| *stuck > 0.0),
+            is_quiet: checks.watches_nothing(),
         }
     }
 
@@ -158,9 +170,7 @@ impl<const N: usize> Encoders<N> {
         let Positions { q, valid, after } = reading;
         *valid
             && *after > 0
-            && self.fault.is_none()
-            && self.doubt.is_none()
-            && !self.watches_standstill
+            && self.is_quiet
             && (0..N).all(|i| abs(q[i] as Real) <= self.checks.range[i]) // no NaN either
             && !self.jumps(self.told.as_ref(), q, *after)
     }
@@ -175,6 +185,18 @@ impl<const N: usize> Encoders<N> {
     /// What to believe of a `reading`, with the law in the loop or not, while it exerts `force` (N or N·m).
     #[cold]
     pub fn read(
+        &mut self,
+        reading: &Positions<N>,
+        in_loop: bool,
+        force: &SVector<Real, N>,
+    ) -> Believed<N> {
+        let believed = self.judged(reading, in_loop, force);
+        let is_sound = self.fault.is_none() && self.doubt.is_none();
+        self.is_quiet = is_sound && self.checks.watches_nothing();
+        believed
+    }
+
+    fn judged(
         &mut self,
         reading: &Positions<N>,
         in_loop: bool,
@@ -332,7 +354,7 @@ impl<const N: usize> Encoders<N> {
     fn is_far(&self, from: &SVector<f64, N>, q: &SVector<f64, N>, after: u32) -> bool {
         let ticks = after as Real;
         let is_far = |i: usize| abs((q[i] - from[i]) as Real) > ticks * self.step[i];
-        self.checks.samples > 0 && (0..N).any(is_far)
+        (0..N).any(is_far)
     }
 
     /// Whether one that has moved faster than it can has moved otherwise than before.

@@ -71,6 +71,10 @@ impl<const N: usize> Origin<N> {
 
     /// q − q_0.
     pub fn counted(&self, q: &SVector<f64, N>) -> SVector<Real, N> {
-        self.q_0.map_or(*q, |q_0| q - q_0).map(|q| q as Real)
+        match &self.q_0 {
+            Some(q_0) if cfg!(feature = "f32") => q - q_0,
+            _ => *q,
+        }
+        .map(|q| q as Real)
     }
 }

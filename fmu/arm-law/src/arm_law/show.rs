@@ -85,10 +85,6 @@ impl ArmLaw {
         outputs.stiff_hand_D = stiff_hand.D.into();
         outputs.stiff_hand_k_h = stiff_hand.k_h.into();
         outputs.encoder_fault = encoder.map_or(0, encoder::Fault::number);
-        outputs.state = match status.state {
-            State::Engaged | State::Hold if self.ledger().is_in_debt() => DEBT,
-            state => state.number(),
-        };
         outputs.diagnostic = status.diagnostic.number();
         outputs.first_fault = status.first_fault.number();
         outputs.authority = status.authority;
@@ -96,7 +92,12 @@ impl ArmLaw {
         outputs.H = ledger.H();
         outputs.G = ledger.G();
         outputs.tank = ledger.tank();
-        outputs.debt = ledger.is_in_debt().into();
+        let is_in_debt = ledger.is_in_debt();
+        outputs.debt = is_in_debt.into();
+        outputs.state = match status.state {
+            State::Engaged | State::Hold if is_in_debt => DEBT,
+            state => state.number(),
+        };
         outputs.share = outcome.share;
         self.show_hand(ft, outputs);
     }
