@@ -16,7 +16,8 @@ pub struct ArmController {
     /// What came of the last tick.
     #[part]
     pub outputs: ArmOutputs,
-    /// Number of the tick that the outputs belong to, at startTime + tick*T; -1 before the first one.
+    /// Number of the tick that the outputs belong to, at startTime + tick*T; -1 before the first one; it stays
+    /// at 2147483647.
     #[output(11, start = -1)]
     pub tick: i32,
     /// Gains in task space that are accepted but probably not meant: 0 none, 1 K*T/M_min above 0.25, 2 a Lambda_n below

@@ -27,7 +27,8 @@ pub struct TestbedController {
     /// What came of the last tick.
     #[part]
     pub outputs: AxisOutputs,
-    /// Number of the tick that the outputs belong to, at startTime + tick*T; -1 before the first one.
+    /// Number of the tick that the outputs belong to, at startTime + tick*T; -1 before the first one; it stays
+    /// at 2147483647.
     #[output(8, start = -1)]
     pub tick: i32,
     /// Position command for the sample that begins, held: the nominal's in the middle of that sample; q_n in the torque form.

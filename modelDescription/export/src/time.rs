@@ -120,6 +120,20 @@ mod tests {
     }
 
     #[test]
+    fn ticks_are_counted_on_beyond_2_to_the_31_and_32() {
+        for first in [(1_u64 << 31) - 2, (1_u64 << 32) - 2] {
+            let mut ticks = Ticks { next: first };
+            for k in first..first + 5 {
+                let step = Step {
+                    elapsed: k as f64 * 0.001,
+                    ..Step::at(0.0, 0.001)
+                };
+                assert_eq!(ticks.within(&step, 0.001), k..k + 1);
+            }
+        }
+    }
+
+    #[test]
     fn small_and_large_steps_run_the_same_ticks() {
         for h in [0.002 / 10.0, 0.002 / 3.0, 0.003, 0.014, 0.2] {
             let n = (2.0_f64 / h).round() as u32;
