@@ -1,7 +1,7 @@
 //! The complete law of the arm: from what is sensed at a tick to the torques on the joints.
 //!
 //! It knows no FMI: the FMU ArmController and the C library are shells around it. Who decides whether it runs stands
-//! in [`decision`], what a tick shows in [`show`].
+//! in `arm_law/decision.rs`, what a tick shows in `arm_law/show.rs`.
 
 mod decision;
 mod show;
