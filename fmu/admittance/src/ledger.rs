@@ -43,6 +43,12 @@ pub struct Ledger<const N: usize> {
     commanded: SVector<Real, N>,
     /// the force that acts now: with a delay the one before
     pub(crate) acting: SVector<Real, N>,
+    /// where it began to act, m; `None` where that is not known
+    from: Option<SVector<Real, N>>,
+    /// work that was done in this sample before that, J
+    done: Real,
+    /// whether the last force has begun to act within this sample
+    is_switched: bool,
     pub(crate) flow: Flow,
     /// how far rounding may have carried the tank below zero since it was last above
     pub(crate) rounding: Real,
@@ -56,8 +62,10 @@ pub(crate) struct Terms<const N: usize> {
     pub defined: bool,
     /// whether the tank is kept ≥ 0
     pub kept: bool,
-    /// whether a force acts one sample later
+    /// whether a force acts later than it is said
     pub delayed: bool,
+    /// by what part of a sample, in (0, 1]
+    pub lag: Real,
     pub E_0: Real,
     pub reach: SampleReach<N>,
 }
@@ -81,6 +89,7 @@ impl<const N: usize> Ledger<N> {
                 defined,
                 kept: defined && settings.law.row().keeps_tank,
                 delayed: settings.delayed,
+                lag: 1.0,
                 E_0: settings.E_0,
                 reach: SampleReach::new(reach, settings.T),
             },
@@ -92,6 +101,9 @@ impl<const N: usize> Ledger<N> {
             outside: false,
             commanded: SVector::zeros(),
             acting: SVector::zeros(),
+            from: None,
+            done: 0.0,
+            is_switched: false,
             flow: Flow::default(),
             rounding: 0.0,
         }
@@ -134,7 +146,9 @@ impl<const N: usize> Ledger<N> {
         let Settlement { step, outside, .. } = settlement;
         let last = foretelling(step.as_ref(), *outside);
         let reach = &self.terms.reach;
-        let work = if self.terms.delayed {
+        let work = if self.is_lagging() {
+            reach.most_work(f, None, 1)
+        } else if self.terms.delayed {
             // Not less than 0: what a force takes from the robot in the next sample cannot pay for this one.
             real::max(0.0, reach.most_work(f, last, 2))
         } else {
@@ -146,7 +160,10 @@ impl<const N: usize> Ledger<N> {
     /// Most work (J) of a force that has been said a sample ago, in the sample that begins after the motion `step` (m).
     #[inline]
     pub(crate) fn reserved(&self, step: Option<&SVector<Real, N>>, outside: bool) -> Real {
-        if self.terms.delayed {
+        if self.is_lagging() {
+            // The acceleration bounds the motion of whole samples only: of a part of one the speed does.
+            self.terms.lag * self.terms.reach.most_work(&self.commanded, None, 1)
+        } else if self.terms.delayed {
             let last = foretelling(step, outside);
             self.terms.reach.most_work(&self.commanded, last, 1)
         } else {
@@ -176,11 +193,68 @@ impl<const N: usize> Ledger<N> {
             };
             (self.commanded, self.flow) = (*f, flow);
         }
+        (self.from, self.done, self.is_switched) = (self.q, 0.0, false);
+    }
+
+    /// With a delay of this `part` of a sample, in (0, 1), in place of a whole one: [`switch`](Self::switch) then says when
+    /// a force begins to act. It has no effect without a delay.
+    pub fn lag(&mut self, part: Real) {
+        self.terms.lag = part;
+    }
+
+    /// Whether a force begins to act within a sample.
+    fn is_lagging(&self) -> bool {
+        self.terms.delayed && self.terms.lag < 1.0
+    }
+
+    /// The force that the last tick said begins to act at the position `q` (m), within the sample; `None` where that is not
+    /// known. The first call between two ticks counts.
+    pub fn switch(&mut self, q: Option<&SVector<Real, N>>) {
+        if !self.terms.defined || !self.is_lagging() || self.is_switched {
+            return;
+        }
+        self.done += match (q, &self.from) {
+            (Some(q), Some(from)) => self.acting.dot(&(q - from)),
+            _ => self.terms.lag * self.terms.reach.most_work(&self.acting, None, 1),
+        };
+        (self.acting, self.from, self.is_switched) = (self.commanded, q.copied(), true);
+    }
+
+    /// Work (J) of the forces in the sample that ends at the position `q` (m).
+    #[inline]
+    pub(crate) fn work(&self, q: &SVector<Real, N>) -> Real {
+        match &self.from {
+            Some(from) => self.done + self.acting.dot(&(q - from)),
+            None => self.work_unseen(),
+        }
+    }
+
+    /// The most that it can be where nobody saw the motion, J.
+    pub(crate) fn work_unseen(&self) -> Real {
+        let reach = &self.terms.reach;
+        if !self.is_lagging() {
+            return reach.most_work(&self.acting, self.foretelling(), 1);
+        }
+        let most = |f| reach.most_work(f, None, 1);
+        let lag = self.terms.lag;
+        self.done
+            + if self.is_switched {
+                (1.0 - lag) * most(&self.acting)
+            } else {
+                lag * most(&self.acting) + (1.0 - lag) * most(&self.commanded)
+            }
+    }
+
+    /// The terms of that work at their sizes, J.
+    pub(crate) fn work_size(&self, q: &SVector<Real, N>) -> Real {
+        let since = |from: SVector<Real, N>| self.acting.abs().dot(&(q - from).abs());
+        real::abs(self.done) + self.from.map_or(0.0, since)
     }
 
     /// Counts positions from a place that is further on by `by` (m).
     pub fn count_from(&mut self, by: &SVector<Real, N>) {
         self.q = self.q.map(|q| q - by);
+        self.from = self.from.map(|q| q - by);
     }
 
     /// The last motion (m), as far as it says anything on the next one.

@@ -150,7 +150,7 @@ impl Servo {
     pub fn step(&mut self, q: Real, f_h: Real, tau_m: Real) -> ServoTick {
         let Self { settings, rule, .. } = *self;
         let T = settings.T;
-        let dq = self.motion.dq(q, &self.sampling);
+        let dq = self.motion.dq(q, 1.0, &self.sampling);
         self.motion = Motion::at(q, dq);
         let e = self.q_n.map_or(0.0, |q_n| rule.spring.slipped(q_n - q));
         let (q_n, v_n) = (q + e, self.v_n);

@@ -3,6 +3,7 @@
 
 use crate::choices::{DIAGNOSTIC, ENCODER_FAULT, FAULT, STATE, TARE_FAILURE, TARE_STATE};
 use admittance::Real;
+use admittance::timing::TIMING;
 use declaration::{Rows, Start};
 
 /// What is sensed and asked for at a tick.
@@ -182,6 +183,9 @@ pub struct ArmOutputs {
     /// readings: the law goes on at its last velocity. Then there is no torque.
     #[output(137, name = "encoder.fault", items = ENCODER_FAULT, from = ["q[i]", "encoder_valid", "encoder.range[i]"])]
     pub encoder_fault: i32,
+    /// Whether the tick came in time after the one before.
+    #[output(141, items = TIMING)]
+    pub timing: i32,
 }
 
 /// What the outputs that show the handle depend on after initialization.

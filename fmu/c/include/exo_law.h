@@ -233,6 +233,16 @@ enum {
   EXO_ENCODER_FAULT_INVALID = 5,
 };
 
+// Whether a tick came in time: timing.
+enum {
+  // within a quarter of T
+  EXO_TIMING_IN_TIME = 0,
+  // by more than a quarter of T: velocities are those over the time that has passed
+  EXO_TIMING_LATE = 1,
+  // by more than a quarter of T: the motion counts for its part of a T in the velocity
+  EXO_TIMING_EARLY = 2,
+};
+
 // The law's number: double precision, or single precision in the packages and libraries named f32.
 typedef double exo_real;
 
@@ -461,8 +471,8 @@ typedef struct exo_arm_parameters {
   int32_t torque_limiting; // 1 scale, 2 clip
   // Sample period.
   exo_real T; // s
-  // Samples by which the importer's wiring delays tau_a, its first value being 0; it changes no torque, only in
-  // which sample the ledger counts a torque's work.
+  // Communication steps by which the importer's wiring delays tau_a, its first value being 0; in the C library samples.
+  // It changes no torque, only from when on the ledger counts a torque's work.
   int32_t delay;
   // Energy with which the tank starts and above which it does not fill.
   exo_real E_0; // J
@@ -643,6 +653,8 @@ typedef struct exo_arm_outputs {
   // What is wrong with the joint angles of this tick. A jump, or an angle over range, is doubted for encoder.samples
   // readings: the law goes on at its last velocity. Then there is no torque.
   int32_t encoder_fault; // 0 none, 1 not_finite, 2 over_range, 3 jump, 4 stuck, 5 invalid
+  // Whether the tick came in time after the one before.
+  int32_t timing; // 0 in_time, 1 late, 2 early
 } exo_arm_outputs;
 
 // One variable of a struct.
@@ -679,8 +691,8 @@ typedef struct exo_axis_parameters {
   exo_real tau_max; // N
   // Sample period.
   exo_real T; // s
-  // Samples by which the importer's wiring delays tau_a, its first value being 0; it changes no force, only in which
-  // sample the ledger counts a force's work.
+  // Communication steps by which the importer's wiring delays tau_a, its first value being 0; in the C library samples.
+  // It changes no force, only from when on the ledger counts a force's work.
   int32_t delay;
   // Energy with which the tank starts and above which it does not fill.
   exo_real E_0; // J
@@ -773,6 +785,8 @@ typedef struct exo_axis_outputs {
   // What is wrong with q at this tick. A jump, or a position over range, is doubted for encoder.samples readings: the
   // law goes on at its last velocity. Then there is no force. 0 but for the laws 1 to 4 in torque form.
   int32_t encoder_fault; // 0 none, 1 not_finite, 2 over_range, 3 jump, 4 stuck, 5 invalid
+  // Whether the tick came in time after the one before.
+  int32_t timing; // 0 in_time, 1 late, 2 early
 } exo_axis_outputs;
 
 #ifdef __cplusplus
@@ -811,6 +825,15 @@ exo_status exo_arm_tick(struct exo_arm_state *state,
                         struct exo_arm_outputs *outputs,
                         struct exo_refusal *refusal);
 
+// The same where the caller measures time: `dt` (s) is the time from the reading of the positions at the last tick to their
+// reading at this one. A tick that is late or early then sees the velocity that there was, and `timing` says so. What else
+// becomes of it: docs/real-time.md. A `dt` that is negative or not finite is refused.
+exo_status exo_arm_tick_after(struct exo_arm_state *state,
+                              double dt,
+                              const struct exo_arm_inputs *inputs,
+                              struct exo_arm_outputs *outputs,
+                              struct exo_refusal *refusal);
+
 // Describes the variable number `i` of the structs of the arm, from 0: parameters, then inputs, then outputs.
 exo_status exo_arm_variable(size_t i, struct exo_variable *variable);
 
@@ -839,6 +862,15 @@ exo_status exo_axis_tick(struct exo_axis_state *state,
                          const struct exo_axis_inputs *inputs,
                          struct exo_axis_outputs *outputs,
                          struct exo_refusal *refusal);
+
+// The same where the caller measures time: `dt` (s) is the time from the reading of the positions at the last tick to their
+// reading at this one. A tick that is late or early then sees the velocity that there was, and `timing` says so. What else
+// becomes of it: docs/real-time.md. A `dt` that is negative or not finite is refused.
+exo_status exo_axis_tick_after(struct exo_axis_state *state,
+                               double dt,
+                               const struct exo_axis_inputs *inputs,
+                               struct exo_axis_outputs *outputs,
+                               struct exo_refusal *refusal);
 
 // Describes the variable number `i` of the structs of one axis, from 0: parameters, then inputs, then outputs.
 exo_status exo_axis_variable(size_t i, struct exo_variable *variable);
@@ -869,6 +901,7 @@ exo_status exo_axis_variable(size_t i, struct exo_variable *variable);
 #define exo_arm_supervision exo_f32_arm_supervision
 #define exo_arm_tare exo_f32_arm_tare
 #define exo_arm_tick exo_f32_arm_tick
+#define exo_arm_tick_after exo_f32_arm_tick_after
 #define exo_arm_tool exo_f32_arm_tool
 #define exo_arm_tune exo_f32_arm_tune
 #define exo_arm_variable exo_f32_arm_variable
@@ -880,6 +913,7 @@ exo_status exo_axis_variable(size_t i, struct exo_variable *variable);
 #define exo_axis_parameters exo_f32_axis_parameters
 #define exo_axis_state exo_f32_axis_state
 #define exo_axis_tick exo_f32_axis_tick
+#define exo_axis_tick_after exo_f32_axis_tick_after
 #define exo_axis_tune exo_f32_axis_tune
 #define exo_axis_variable exo_f32_axis_variable
 #define exo_law_real_size exo_f32_law_real_size

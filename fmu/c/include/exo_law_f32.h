@@ -238,8 +238,8 @@ typedef struct exo_f32_arm_parameters {
   int32_t torque_limiting; // 1 scale, 2 clip
   // Sample period.
   exo_f32_real T; // s
-  // Samples by which the importer's wiring delays tau_a, its first value being 0; it changes no torque, only in
-  // which sample the ledger counts a torque's work.
+  // Communication steps by which the importer's wiring delays tau_a, its first value being 0; in the C library samples.
+  // It changes no torque, only from when on the ledger counts a torque's work.
   int32_t delay;
   // Energy with which the tank starts and above which it does not fill.
   exo_f32_real E_0; // J
@@ -420,6 +420,8 @@ typedef struct exo_f32_arm_outputs {
   // What is wrong with the joint angles of this tick. A jump, or an angle over range, is doubted for encoder.samples
   // readings: the law goes on at its last velocity. Then there is no torque.
   int32_t encoder_fault; // 0 none, 1 not_finite, 2 over_range, 3 jump, 4 stuck, 5 invalid
+  // Whether the tick came in time after the one before.
+  int32_t timing; // 0 in_time, 1 late, 2 early
 } exo_f32_arm_outputs;
 
 // Parameters of the law of one axis. Any bits may come from C: what cannot be used is refused by name.
@@ -440,8 +442,8 @@ typedef struct exo_f32_axis_parameters {
   exo_f32_real tau_max; // N
   // Sample period.
   exo_f32_real T; // s
-  // Samples by which the importer's wiring delays tau_a, its first value being 0; it changes no force, only in which
-  // sample the ledger counts a force's work.
+  // Communication steps by which the importer's wiring delays tau_a, its first value being 0; in the C library samples.
+  // It changes no force, only from when on the ledger counts a force's work.
   int32_t delay;
   // Energy with which the tank starts and above which it does not fill.
   exo_f32_real E_0; // J
@@ -534,6 +536,8 @@ typedef struct exo_f32_axis_outputs {
   // What is wrong with q at this tick. A jump, or a position over range, is doubted for encoder.samples readings: the
   // law goes on at its last velocity. Then there is no force. 0 but for the laws 1 to 4 in torque form.
   int32_t encoder_fault; // 0 none, 1 not_finite, 2 over_range, 3 jump, 4 stuck, 5 invalid
+  // Whether the tick came in time after the one before.
+  int32_t timing; // 0 in_time, 1 late, 2 early
 } exo_f32_axis_outputs;
 
 #ifdef __cplusplus
@@ -572,6 +576,15 @@ exo_status exo_f32_arm_tick(struct exo_f32_arm_state *state,
                         struct exo_f32_arm_outputs *outputs,
                         struct exo_f32_refusal *refusal);
 
+// The same where the caller measures time: `dt` (s) is the time from the reading of the positions at the last tick to their
+// reading at this one. A tick that is late or early then sees the velocity that there was, and `timing` says so. What else
+// becomes of it: docs/real-time.md. A `dt` that is negative or not finite is refused.
+exo_status exo_f32_arm_tick_after(struct exo_f32_arm_state *state,
+                              double dt,
+                              const struct exo_f32_arm_inputs *inputs,
+                              struct exo_f32_arm_outputs *outputs,
+                              struct exo_f32_refusal *refusal);
+
 // Describes the variable number `i` of the structs of the arm, from 0: parameters, then inputs, then outputs.
 exo_status exo_f32_arm_variable(size_t i, struct exo_variable *variable);
 
@@ -600,6 +613,15 @@ exo_status exo_f32_axis_tick(struct exo_f32_axis_state *state,
                          const struct exo_f32_axis_inputs *inputs,
                          struct exo_f32_axis_outputs *outputs,
                          struct exo_f32_refusal *refusal);
+
+// The same where the caller measures time: `dt` (s) is the time from the reading of the positions at the last tick to their
+// reading at this one. A tick that is late or early then sees the velocity that there was, and `timing` says so. What else
+// becomes of it: docs/real-time.md. A `dt` that is negative or not finite is refused.
+exo_status exo_f32_axis_tick_after(struct exo_f32_axis_state *state,
+                               double dt,
+                               const struct exo_f32_axis_inputs *inputs,
+                               struct exo_f32_axis_outputs *outputs,
+                               struct exo_f32_refusal *refusal);
 
 // Describes the variable number `i` of the structs of one axis, from 0: parameters, then inputs, then outputs.
 exo_status exo_f32_axis_variable(size_t i, struct exo_variable *variable);

@@ -1,10 +1,9 @@
 //! The variables, one row each: those of the law of one axis, and what the testbed has besides.
 
 use crate::controller::Controller;
-use admittance::encoder::Age;
 use admittance::one_axis::{AxisInputs, AxisOutputs, AxisParameters};
 use declaration::{Declare, Description, Experiment, Rows, Start, Stepping, choices};
-use export::Ticks;
+use export::Sampler;
 use serde::{Deserialize, Serialize};
 
 choices! { FORM "Form" "What the robot gets from the controller":
@@ -27,10 +26,14 @@ pub struct TestbedController {
     /// What came of the last tick.
     #[part]
     pub outputs: AxisOutputs,
-    /// Number of the tick that the outputs belong to, at startTime + tick*T; -1 before the first one; it stays
-    /// at 2147483647.
+    /// Number of the tick that the outputs belong to, due at startTime + tick*sample_period; -1 before the first one; it
+    /// stays at 2147483647.
     #[output(8, start = -1)]
     pub tick: i32,
+    /// Sample period that the law has: the whole number of communication steps that is nearest to T, as the first step has
+    /// them. T where a step divides it; the step itself where it is longer than T.
+    #[output(54, unit = SECOND, from = ["T"], start = 0.002)]
+    pub sample_period: f64,
     /// Position command for the sample that begins, held: the nominal's in the middle of that sample; q_n in the torque form.
     #[output(32, unit = METRE, from = ["q"])]
     pub q_d: f64,
@@ -51,8 +54,9 @@ pub struct TestbedController {
     #[part]
     pub comparator: Comparator,
 
-    pub(crate) ticks: Ticks,
-    pub(crate) age: Age,
+    pub(crate) sampler: Option<Sampler>,
+    /// whether the log has been told of a tick that did not come in time
+    pub(crate) told: bool,
     pub(crate) controller: Option<Controller>,
 }
 

@@ -34,6 +34,8 @@ class Experiment:
     fmus: Mapping[str, Mapping[str, str]]
     #: Inputs at their start values: nothing feeds them and nothing sets them.
     unwired: tuple[str, ...] = ()
+    #: What else may be a slip, a sentence each.
+    notes: tuple[str, ...] = ()
 
     @property
     def passed(self) -> bool:
@@ -103,6 +105,7 @@ def run(
             recordings[case.id] = simulate(plan=plans[case.id], archives=archives)
         fmus = {name: _facts(archive) for name, archive in archives.items()}
         unwired = preflight.unwired(plans, archives)
+        notes = preflight.timing(plans, archives)
     return Experiment(
         scenario=scenario,
         overrides=parsed | dict(given or {}),
@@ -111,6 +114,7 @@ def run(
         results=evaluate(scenario=scenario, recordings=recordings, plans=plans, changed=changed),
         fmus=fmus,
         unwired=tuple(unwired),
+        notes=tuple(notes),
     )
 
 

@@ -16,6 +16,7 @@ from exo.looks import BLACK, BLUE, CYCLE, MARK, VERMILLION, Look, looks
 from exo.metrics.basic import window
 from exo.metrics.loops import loop_of
 from exo.metrics.response import measured_response
+from exo.profile import SAME_INSTANT
 from exo.recording import Recording
 from exo.scenario import Bands, Figure, Panel
 
@@ -185,16 +186,25 @@ def data(*, figure: Figure, recordings: Mapping[str, Recording]) -> pa.Table:
         return pa.table(response_table(recordings))
     if figure.poses:
         return pa.table(poses.table(poses=figure.poses, run=recordings[figure.poses.case]))
-    table: dict[str, Any] = {}
+    runs = {curve.case: recordings[curve.case] for panel in figure.panels for curve in panel.curves}
+    lengths = {round(len(run.time) * run.step / SAME_INSTANT) for run in runs.values()}
+    if len(lengths) > 1:
+        raise ScenarioError(f"figure {figure.id}: its curves must have one duration")
+    # Cases with other steps have other instants: a curve is empty where it has none.
+    instants = {case: np.round(run.time / SAME_INSTANT).astype(np.int64) for case, run in runs.items()}
+    every = np.unique(np.concatenate(list(instants.values())))
+    finest = max(runs.values(), key=lambda run: len(run.time))
+    table: dict[str, Any] = {figure.x_label: finest.time if len(every) == len(finest.time) else every * SAME_INSTANT}
     for panel in figure.panels:
         for curve in panel.curves:
-            run = recordings[curve.case]
-            if table and len(table[figure.x_label]) != len(run.time):
-                raise ScenarioError(f"figure {figure.id}: its curves must have one duration")
-            table[figure.x_label] = run.time
+            run = runs[curve.case]
             name = ", ".join(part for part in (panel.title, curve.label or curve.column) if part)
             unit = run.units.get(curve.column, "")
-            table[f"{name} [{printed(unit)}]"] = run[curve.column]
+            column = run[curve.column]
+            if len(run.time) < len(every):
+                column = np.full(len(every), np.nan)
+                column[np.searchsorted(every, instants[curve.case])] = run[curve.column]
+            table[f"{name} [{printed(unit)}]"] = column
     return pa.table(table)
 
 

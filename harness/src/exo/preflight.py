@@ -51,7 +51,6 @@ def check(
         of = {name: archives[archive] for name, archive in plan.components.items()}
         _parameters(plan, of, owner)
         _wires(plan, of, owner)
-        _sample_period(plan, of, owner)
     _memory(scenario, plans, archives)
     for metric in scenario.metrics:
         for case in metric.cases or tuple(plans):
@@ -89,6 +88,23 @@ def empty_window(metric: Metric, plan: Plan) -> str:
         if key in given and float(given[key]) > plan.duration:
             return f"{key} = {given[key]} s lies behind the end of the run, {plan.duration:g} s"
     return ""
+
+
+def timing(plans: Mapping[str, Plan], archives: Mapping[str, Archive]) -> list[str]:
+    """Steps and sample periods that do not fit. A sampled FMU has its period as parameter T; it reads its inputs at
+    communication points, so that its ticks fall on them only when the step divides T."""
+    notes: dict[str, None] = {}
+    for plan in plans.values():
+        for component, archive in plan.components.items():
+            variable = archives[archive].variables.get("T")
+            if variable is None or variable.causality != "parameter" or variable.unit != "s":
+                continue
+            T = float(plan.parameters.get(f"{component}.T", variable.start or 0.0))
+            if T > 0.0 and abs(T / plan.step - max(1.0, round(T / plan.step))) > WHOLE * T / plan.step:
+                told = "sample_period" in archives[archive].names("output")
+                what = f"{component}.sample_period is what it makes of it" if told else "it ticks between steps"
+                notes[f"the step {plan.step:g} s does not divide {component}.T = {T:g} s: {what}"] = None
+    return list(notes)
 
 
 def unwired(plans: Mapping[str, Plan], archives: Mapping[str, Archive]) -> list[str]:
@@ -140,23 +156,6 @@ def _wires(plan: Plan, of: Mapping[str, Archive], owner: str) -> None:
 
 def _kind(variable: Any) -> str:
     return "Integer" if variable.type == "Enumeration" else str(variable.type)
-
-
-def _sample_period(plan: Plan, of: Mapping[str, Archive], owner: str) -> None:
-    """A sampled FMU has its period as parameter T. Its ticks fall on steps when one is a multiple of the other."""
-    for component, archive in of.items():
-        variable = archive.variables.get("T")
-        if variable is None or variable.causality != "parameter" or variable.unit != "s":
-            continue
-        T = float(plan.parameters.get(f"{component}.T", variable.start or 0.0))
-        if T <= 0.0:
-            continue  # the FMU says why not
-        ratio = max(T / plan.step, plan.step / T)
-        if abs(ratio - round(ratio)) > WHOLE * ratio:
-            raise ScenarioError(
-                f"{owner}: step {plan.step:g} s and {component}.T {T:g} s do not fit: expected one to be a multiple of "
-                "the other, so that each tick falls on a step"
-            )
 
 
 def _memory(scenario: Scenario, plans: Mapping[str, Plan], archives: Mapping[str, Archive]) -> None:

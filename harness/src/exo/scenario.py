@@ -100,6 +100,7 @@ class Case(Data):
     profiles: dict[str, tuple[Segment, ...]] = {}
     coupling: Coupling | None = None
     duration: Positive | None = None
+    step: Positive | None = None
 
 
 class Check(Data):
@@ -240,7 +241,7 @@ class Scenario(Data):
     about: Text
     source: Line
     duration: Positive
-    #: Macro step = the controller's sample period (s).
+    #: Macro step, of the cases without one of their own (s): the controller's sample period.
     step: Positive
     coupling: Coupling = "zero_delay"
     #: In the order in which they step.
@@ -272,7 +273,7 @@ class Scenario(Data):
             _known(owner, "component", (key.split(".", 1)[0] for key in case.parameters), self.components)
             _known(owner, "profile", case.profiles, self.profiles)
             self._check_wiring(owner, self.inputs | case.inputs)
-            check_duration(owner, duration=case.duration or self.duration, step=self.step)
+            check_duration(owner, duration=case.duration or self.duration, step=case.step or self.step)
         for metric in self.metrics:
             owner = f"metric {metric.id}"
             _known(owner, "case", (*(metric.cases or ()), *metric.expected, *metric.paper), cases)

@@ -3,6 +3,7 @@
 
 use crate::Real;
 use crate::encoder::FAULT;
+use crate::timing::TIMING;
 use declaration::{Rows, Start};
 
 /// What is sensed and asked for at a tick.
@@ -89,4 +90,7 @@ pub struct AxisOutputs {
     /// law goes on at its last velocity. Then there is no force. 0 but for the laws 1 to 4 in torque form.
     #[output(48, name = "encoder.fault", items = FAULT, from = ["q", "encoder_valid", "encoder.range"])]
     pub encoder_fault: i32,
+    /// Whether the tick came in time after the one before.
+    #[output(53, items = TIMING)]
+    pub timing: i32,
 }

@@ -26,6 +26,8 @@ pub(super) struct Ran {
     pub(super) stiff_hand: StiffHandSeen,
     /// what the law knows of the hand: about the handle, in the base frame
     pub(super) ft: Conditioned,
+    /// sample periods since the joint angles before these were read
+    pub(super) after: Real,
     /// what is wrong with the joint angles
     pub(super) encoder: Option<encoder::Fault>,
     /// what supervision says; without it, that the law does what `engage` and `hold` say
@@ -43,6 +45,7 @@ impl Default for Ran {
             slowed: false,
             stiff_hand: StiffHandSeen::default(),
             ft: Conditioned::default(),
+            after: 1.0,
             encoder: None,
             status: Status::of(Demand::Rest),
         }
@@ -61,6 +64,7 @@ impl ArmLaw {
             ft,
             encoder,
             status,
+            after: _,
         } = ran;
         let absolute = |p: &Vector3<Real>| self.origin().map_or(*p, |p_0| p_0 + p).into();
         outputs.tau_a = outcome.tau.into();
