@@ -88,7 +88,7 @@ impl ArmController {
             };
             let refused = |error| sampler.refused(T, error);
             self.arm_law = Some(ArmLaw::new(&parameters).map_err(refused)?);
-            log.warning(format_args!("{}", sampler.message(T)));
+            sampler.tell(T, log);
         }
         if let Some(arm_law) = &mut self.arm_law {
             arm_law.lag(sampler.exchange());

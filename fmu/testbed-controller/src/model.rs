@@ -94,7 +94,7 @@ impl TestbedController {
             };
             let controller = Controller::new(&parameters, self.form, &self.comparator);
             self.controller = Some(controller.map_err(|error| sampler.refused(T, error))?);
-            log.warning(format_args!("{}", sampler.message(T)));
+            sampler.tell(T, log);
         }
         if let Some(controller) = &mut self.controller {
             controller.lag(sampler.exchange());

@@ -1,7 +1,7 @@
 //! The samples of a model that reads its inputs at communication points.
 
 use crate::time::Step;
-use crate::{Clock, Refusal};
+use crate::{Clock, Log, Refusal};
 use serde::{Deserialize, Serialize};
 
 /// Steps in a period from which on the period is the one that was asked for, whatever the step size: what it is off by is
@@ -76,13 +76,13 @@ impl Sampler {
         }
     }
 
-    /// What the log is told where the period is not the `T` (s) that was asked for.
+    /// Tells the log that the period is not the `T` (s) that was asked for.
     #[allow(non_snake_case, reason = "the sample period of the standard texts")]
-    pub fn message(&self, T: f64) -> String {
-        format!(
+    pub fn tell(&self, T: f64, log: &mut Log<'_>) {
+        log.warning(format_args!(
             "sample_period = {:?} s: the communication steps do not make up T = {T:?} s; the law is sampled with them",
             self.period
-        )
+        ));
     }
 
     /// A first step whose period the model refuses with `error`, in place of the `T` (s) that was asked for.
