@@ -99,7 +99,6 @@ def test_two_files_with_one_id_are_refused(tmp_path: Path, fmu_dir: Path) -> Non
         (changed('column = "plant.q" }', 'column = "plant.tau_d" }'), ["plant.tau_d is not recorded"]),
         (changed('column = "plant.q", label', 'column = "plant.qq", label'), ["figure q: case push", "qq"]),
         (changed('title = "A', 'signals = ["plant.x"]\ntitle = "A'), ["signals", "no variable x"]),
-        (changed("step = 0.002", "step = 0.003").replace("duration = 1.0", "duration = 3.0"), ["controller.T 0.002 s"]),
         (SHORT.replace("[components.plant", '[components."a.b"'), ["components.a.b"]),
         (SHORT.replace("[components.plant", "[components.profile"), ["components.profile: this name stands"]),
         (changed('[[cases]]\nid = "push"', '[[cases]]\nid = "push"\nparameters = { "controller.q" = 1.0 }'), [
