@@ -22,7 +22,7 @@ mod fault;
 
 pub use fault::{FAULT, Fault, message};
 
-use crate::real::{abs, max, min};
+use crate::real::{abs, min};
 use crate::{Reach, Real};
 use nalgebra::SVector;
 
@@ -106,6 +106,12 @@ pub struct Encoders<const N: usize> {
     stuck: usize,
     /// whether nothing is wrong and no position may be stuck
     is_quiet: bool,
+}
+
+/// As many sample periods, or one where it was less: what a clock says of a part of one is not what a jump is judged by.
+#[inline]
+fn at_least_one(periods: Real) -> Real {
+    if periods > 1.0 { periods } else { 1.0 }
 }
 
 impl<const N: usize> Encoders<N> {
@@ -309,7 +315,7 @@ impl<const N: usize> Encoders<N> {
 
     /// The last motion's part of the one in `after` sample periods, if it goes on alike.
     fn ahead(&self, after: Real) -> f64 {
-        f64::from(after / max(self.ticks, 1.0))
+        f64::from(after / at_least_one(self.ticks))
     }
 
     /// Whether the robot cannot have come from where it was told to be to `q` in this many sample periods: faster than it can, and
@@ -322,7 +328,7 @@ impl<const N: usize> Encoders<N> {
     /// Whether a position has moved faster than it can.
     #[inline]
     fn is_far(&self, from: &SVector<f64, N>, q: &SVector<f64, N>, after: Real) -> bool {
-        let periods = max(after, 1.0);
+        let periods = at_least_one(after);
         let is_far = |i: usize| abs((q[i] - from[i]) as Real) > periods * self.step[i];
         (0..N).any(is_far)
     }
@@ -330,7 +336,7 @@ impl<const N: usize> Encoders<N> {
     /// Whether one that has moved faster than it can has moved otherwise than before.
     #[cold]
     fn is_other(&self, from: &SVector<f64, N>, q: &SVector<f64, N>, after: Real) -> bool {
-        let periods = max(after, 1.0);
+        let periods = at_least_one(after);
         (0..N).any(|i| {
             let way = q[i] - from[i];
             let foretold = (from[i] - self.before[i]) * self.ahead(after);

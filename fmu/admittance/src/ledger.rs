@@ -43,12 +43,8 @@ pub struct Ledger<const N: usize> {
     commanded: SVector<Real, N>,
     /// the force that acts now: with a delay the one before
     pub(crate) acting: SVector<Real, N>,
-    /// where it began to act, m; `None` where that is not known
-    from: Option<SVector<Real, N>>,
-    /// work that was done in this sample before that, J
-    done: Real,
-    /// whether the last force has begun to act within this sample
-    is_switched: bool,
+    /// since when it does, if that was within this sample
+    switched: Option<Switched<N>>,
     pub(crate) flow: Flow,
     /// how far rounding may have carried the tank below zero since it was last above
     pub(crate) rounding: Real,
@@ -68,6 +64,16 @@ pub(crate) struct Terms<const N: usize> {
     pub lag: Real,
     pub E_0: Real,
     pub reach: SampleReach<N>,
+}
+
+/// Where, within a sample, a force began to act.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+struct Switched<const N: usize> {
+    /// The position, m, if it is known.
+    q: Option<SVector<Real, N>>,
+    /// Work of the force before it, J.
+    done: Real,
 }
 
 /// Energies of the sample that begins, J.
@@ -101,9 +107,7 @@ impl<const N: usize> Ledger<N> {
             outside: false,
             commanded: SVector::zeros(),
             acting: SVector::zeros(),
-            from: None,
-            done: 0.0,
-            is_switched: false,
+            switched: None,
             flow: Flow::default(),
             rounding: 0.0,
         }
@@ -146,13 +150,14 @@ impl<const N: usize> Ledger<N> {
         let Settlement { step, outside, .. } = settlement;
         let last = foretelling(step.as_ref(), *outside);
         let reach = &self.terms.reach;
+        if !self.terms.delayed {
+            return [0.0, reach.most_work(f, last, 1)];
+        }
         let work = if self.is_lagging() {
-            reach.most_work(f, None, 1)
-        } else if self.terms.delayed {
+            self.terms.reach.most_by_speed(f)
+        } else {
             // Not less than 0: what a force takes from the robot in the next sample cannot pay for this one.
             real::max(0.0, reach.most_work(f, last, 2))
-        } else {
-            reach.most_work(f, last, 1)
         };
         [self.reserved(step.as_ref(), *outside), work]
     }
@@ -160,14 +165,14 @@ impl<const N: usize> Ledger<N> {
     /// Most work (J) of a force that has been said a sample ago, in the sample that begins after the motion `step` (m).
     #[inline]
     pub(crate) fn reserved(&self, step: Option<&SVector<Real, N>>, outside: bool) -> Real {
-        if self.is_lagging() {
+        if !self.terms.delayed {
+            0.0
+        } else if self.is_lagging() {
             // The acceleration bounds the motion of whole samples only: of a part of one the speed does.
-            self.terms.lag * self.terms.reach.most_work(&self.commanded, None, 1)
-        } else if self.terms.delayed {
+            self.terms.lag * self.terms.reach.most_by_speed(&self.commanded)
+        } else {
             let last = foretelling(step, outside);
             self.terms.reach.most_work(&self.commanded, last, 1)
-        } else {
-            0.0
         }
     }
 
@@ -193,7 +198,7 @@ impl<const N: usize> Ledger<N> {
             };
             (self.commanded, self.flow) = (*f, flow);
         }
-        (self.from, self.done, self.is_switched) = (self.q, 0.0, false);
+        self.switched = None;
     }
 
     /// With a delay of this `part` of a sample, in (0, 1), in place of a whole one: [`switch`](Self::switch) then says when
@@ -210,51 +215,71 @@ impl<const N: usize> Ledger<N> {
     /// The force that the last tick said begins to act at the position `q` (m), within the sample; `None` where that is not
     /// known. The first call between two ticks counts.
     pub fn switch(&mut self, q: Option<&SVector<Real, N>>) {
-        if !self.terms.defined || !self.is_lagging() || self.is_switched {
+        if !self.terms.defined || !self.is_lagging() || self.switched.is_some() {
             return;
         }
-        self.done += match (q, &self.from) {
-            (Some(q), Some(from)) => self.acting.dot(&(q - from)),
-            _ => self.terms.lag * self.terms.reach.most_work(&self.acting, None, 1),
+        let done = match (q, &self.q) {
+            (Some(q), Some(last)) => self.acting.dot(&(q - last)),
+            _ => self.terms.lag * self.terms.reach.most_by_speed(&self.acting),
         };
-        (self.acting, self.from, self.is_switched) = (self.commanded, q.copied(), true);
+        self.acting = self.commanded;
+        self.switched = Some(Switched {
+            q: q.copied(),
+            done,
+        });
     }
 
     /// Work (J) of the forces in the sample that ends at the position `q` (m).
     #[inline]
     pub(crate) fn work(&self, q: &SVector<Real, N>) -> Real {
-        match &self.from {
-            Some(from) => self.done + self.acting.dot(&(q - from)),
-            None => self.work_unseen(),
+        match (&self.switched, &self.q) {
+            (None, Some(last)) => self.acting.dot(&(q - last)),
+            (Some(switched), _) => self.work_switched(switched, q),
+            (None, None) => self.work_unseen(),
         }
+    }
+
+    #[cold]
+    fn work_switched(&self, switched: &Switched<N>, q: &SVector<Real, N>) -> Real {
+        let since = |from: SVector<Real, N>| switched.done + self.acting.dot(&(q - from));
+        switched.q.map_or_else(|| self.work_unseen(), since)
     }
 
     /// The most that it can be where nobody saw the motion, J.
+    #[cold]
     pub(crate) fn work_unseen(&self) -> Real {
-        let reach = &self.terms.reach;
         if !self.is_lagging() {
+            let reach = &self.terms.reach;
             return reach.most_work(&self.acting, self.foretelling(), 1);
         }
-        let most = |f| reach.most_work(f, None, 1);
         let lag = self.terms.lag;
-        self.done
-            + if self.is_switched {
-                (1.0 - lag) * most(&self.acting)
-            } else {
-                lag * most(&self.acting) + (1.0 - lag) * most(&self.commanded)
+        match &self.switched {
+            Some(switched) => {
+                switched.done + (1.0 - lag) * self.terms.reach.most_by_speed(&self.acting)
             }
+            None => {
+                lag * self.terms.reach.most_by_speed(&self.acting)
+                    + (1.0 - lag) * self.terms.reach.most_by_speed(&self.commanded)
+            }
+        }
     }
 
-    /// The terms of that work at their sizes, J.
+    /// The terms of the work up to the position `q` (m) at their sizes, J.
     pub(crate) fn work_size(&self, q: &SVector<Real, N>) -> Real {
+        let (from, done) = match &self.switched {
+            Some(switched) => (switched.q, switched.done),
+            None => (self.q, 0.0),
+        };
         let since = |from: SVector<Real, N>| self.acting.abs().dot(&(q - from).abs());
-        real::abs(self.done) + self.from.map_or(0.0, since)
+        real::abs(done) + from.map_or(0.0, since)
     }
 
     /// Counts positions from a place that is further on by `by` (m).
     pub fn count_from(&mut self, by: &SVector<Real, N>) {
         self.q = self.q.map(|q| q - by);
-        self.from = self.from.map(|q| q - by);
+        if let Some(switched) = &mut self.switched {
+            switched.q = switched.q.map(|q| q - by);
+        }
     }
 
     /// The last motion (m), as far as it says anything on the next one.

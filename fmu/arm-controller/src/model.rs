@@ -40,12 +40,13 @@ impl Model for ArmController {
     }
 
     fn step(&mut self, step: Step, log: &mut Log<'_>) -> Result<(), Refusal> {
-        let mut sampler = match self.sampler {
-            Some(sampler) => sampler,
-            None => self.first(&step, log)?,
-        };
-        let sample = sampler.sample(&step);
-        self.sampler = Some(sampler);
+        if self.sampler.is_none() {
+            self.sampler = Some(self.first(&step, log)?);
+        }
+        let sample = self
+            .sampler
+            .as_mut()
+            .and_then(|sampler| sampler.sample(&step));
         let Some(arm_law) = &mut self.arm_law else {
             return Err(Refusal::new("a step before initialization"));
         };
@@ -77,6 +78,7 @@ impl Model for ArmController {
 
 impl ArmController {
     /// The samples of an experiment that begins with `step`, and a law with their period.
+    #[cold]
     fn first(&mut self, step: &Step, log: &mut Log<'_>) -> Result<Sampler, Refusal> {
         let T = self.parameters.T;
         let sampler = Sampler::new(step, T);

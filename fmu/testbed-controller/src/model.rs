@@ -47,12 +47,13 @@ impl Model for TestbedController {
     }
 
     fn step(&mut self, step: Step, log: &mut Log<'_>) -> Result<(), Refusal> {
-        let mut sampler = match self.sampler {
-            Some(sampler) => sampler,
-            None => self.first(&step, log)?,
-        };
-        let sample = sampler.sample(&step);
-        self.sampler = Some(sampler);
+        if self.sampler.is_none() {
+            self.sampler = Some(self.first(&step, log)?);
+        }
+        let sample = self
+            .sampler
+            .as_mut()
+            .and_then(|sampler| sampler.sample(&step));
         let Some(controller) = &mut self.controller else {
             return Err(Refusal::new("a step before initialization"));
         };
@@ -83,6 +84,7 @@ impl Model for TestbedController {
 
 impl TestbedController {
     /// The samples of an experiment that begins with `step`, and a law with their period.
+    #[cold]
     fn first(&mut self, step: &Step, log: &mut Log<'_>) -> Result<Sampler, Refusal> {
         let T = self.parameters.T;
         let sampler = Sampler::new(step, T);
