@@ -71,7 +71,7 @@ pub enum Cause {
 pub struct Seen {
     /// Whether nobody guides the nominal: it is to stand still.
     pub unattended: bool,
-    /// A steady force moves the nominal, or would for `drift_time` now.
+    /// A steady force has moved the nominal by half of `drift_distance`, or would for `drift_time` now.
     pub warning: Option<Cause>,
     /// Whether that has lasted for `drift_stop_time`.
     pub lasting: bool,
@@ -171,11 +171,12 @@ impl DriftWatch {
             self.attended = false;
         }
         let driven = acts && !self.attended && force > self.threshold;
-        let moves = acts && self.attended && self.moved >= 0.5 * self.distance;
         let ticks = self.driven.count(driven);
+        let is_far = acts && self.moved >= 0.5 * self.distance;
+        let warns = ticks >= self.time || (is_far && (self.attended || driven));
         Seen {
             unattended: !self.attended,
-            warning: (ticks >= self.time || moves).then(|| self.cause(&gravity)),
+            warning: warns.then(|| self.cause(&gravity)),
             lasting: self.stop > 0 && ticks >= self.stop,
         }
     }
