@@ -75,6 +75,18 @@ def test_the_largest_step_is_that_into_a_tick_of_the_window() -> None:
     assert basic.largest_step(run, columns=("y", "x"), after=2.5, before=3.01) == 5.0
 
 
+def test_the_farthest_is_a_distance_from_the_first_tick_of_the_window() -> None:
+    # Three quarters of a circle of radius 2 m about (2, 0) from t = 0 on: the far side is 4 m away.
+    angle = np.pi + 1.5 * np.pi * TIME / TIME[-1]
+    run = recording(time=TIME, x=2.0 + 2.0 * np.cos(angle), y=2.0 * np.sin(angle))
+    assert basic.farthest(run, columns=("x", "y"), after=0.0) == pytest.approx(4.0)
+    assert basic.farthest(run, columns=("y",), after=0.0) == pytest.approx(2.0)
+    half = TIME[-1] / 2
+    chord = 4.0 * np.sin(0.75 * np.pi / 2)  # three quarters of half a turn
+    assert basic.farthest(run, columns=("x", "y"), after=half) == pytest.approx(chord, rel=1e-3)
+    assert basic.farthest(run, columns=("x",), after=1.0, before=1.005) == 0.0
+
+
 def test_ticks_until_counts_from_the_first_tick_of_the_window() -> None:
     state = np.where(TIME < 5.0, 3, 6)
     run = recording(time=TIME, state=state)

@@ -251,6 +251,7 @@ impl ArmLaw {
         let q = believed.q.map(|q| self.counted(&q, inputs)).transpose()?;
         if self.supervisor.is_some() {
             self.supervised(inputs, q.as_ref(), believed.doubted, &mut ran);
+            self.show_drift(outputs);
         } else {
             self.unsupervised(inputs, q.as_ref(), believed.doubted, &mut ran)?;
         }
@@ -356,21 +357,27 @@ impl ArmLaw {
         }
     }
 
-    /// What the hand does, with the pose in `ran` and joint angles `q` (rad): into `ran` in the base frame. What the
-    /// sensor's conditioning is to remember of it is returned.
+    /// The raw reading of the hand's sensor, sensor frame.
     #[inline]
-    fn sensed(&self, q: &Vector3<Real>, inputs: &ArmInputs, ran: &mut Ran) -> Made {
-        let turn = self.frame.at(&ran.pose);
+    fn wrench(&self, inputs: &ArmInputs) -> Wrench {
         let (force, torque) = if self.source == WRENCH {
             (inputs.ft_force, inputs.ft_torque)
         } else {
             (inputs.f_h, [0.0; 3])
         };
+        Wrench {
+            force: force.into(),
+            torque: torque.into(),
+        }
+    }
+
+    /// What the hand does, with the pose in `ran` and joint angles `q` (rad): into `ran` in the base frame. What the
+    /// sensor's conditioning is to remember of it is returned.
+    #[inline]
+    fn sensed(&self, q: &Vector3<Real>, inputs: &ArmInputs, ran: &mut Ran) -> Made {
+        let turn = self.frame.at(&ran.pose);
         let reading = Reading {
-            wrench: &Wrench {
-                force: force.into(),
-                torque: torque.into(),
-            },
+            wrench: &self.wrench(inputs),
             valid: inputs.ft_valid != 0,
             tare: inputs.ft_tare != 0,
         };

@@ -186,6 +186,13 @@ pub struct ArmOutputs {
     /// Whether the tick came in time after the one before.
     #[output(141, items = TIMING)]
     pub timing: i32,
+    /// Way of the nominal's handle since somebody last varied the force of the hand; 0 unless drift_distance is set, under
+    /// supervision.
+    #[output(195, unit = METRE)]
+    pub unattended: Real,
+    /// By how much the tool is heavier than ft.mass, as far as the last warning tool_weight could tell; 0 before the first.
+    #[output(196, name = "ft.mass_error", unit = KILOGRAM)]
+    pub ft_mass_error: Real,
 }
 
 /// What the outputs that show the handle depend on after initialization.

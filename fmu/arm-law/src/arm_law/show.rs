@@ -106,6 +106,15 @@ impl ArmLaw {
         self.show_hand(ft, outputs);
     }
 
+    /// What the watch on drift knows; without one the outputs stay as they are.
+    pub(super) fn show_drift(&self, outputs: &mut ArmOutputs) {
+        let supervisor = self.supervisor.as_ref();
+        if let Some(drift) = supervisor.and_then(|supervisor| supervisor.drift()) {
+            outputs.unattended = drift.moved();
+            outputs.ft_mass_error = drift.mass_error();
+        }
+    }
+
     /// What is known of the hand.
     pub(super) fn show_hand(&self, ft: &Conditioned, outputs: &mut ArmOutputs) {
         outputs.ft_f_h = ft.hand.force.into();
