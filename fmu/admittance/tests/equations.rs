@@ -50,7 +50,7 @@ proptest! {
         prop_assert!(((left - tau_ed).norm() - missing.norm()).abs() < 1e-12 * scale);
     }
 
-    /// The equation before the Riccati one, (22) in the PDF, which the paper calls eq:dif_dyn written another way:
+    /// eq:diff_dyn_alter, the equation before the Riccati one: eq:dif_dyn written another way,
     /// M(dde + K_P de) + (C + D_n)(de + K_P e) = −tau_a + w. Beside what eq:dif_dyn lacks its w lacks −D_n dq.
     #[test]
     fn the_difference_dynamics_written_with_w_lack_the_damping_of_the_robot_s_velocity_as_well(

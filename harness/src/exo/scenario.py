@@ -211,7 +211,7 @@ class Figure(Data):
 
     id: Identifier
     title: Line
-    kind: Literal["panels", "frequency_response", "arm_poses"] = "panels"
+    kind: Literal["panels", "frequency_response", "arm_poses", "impedance", "hand_limits"] = "panels"
     #: The paper's label, when it is one of its figures.
     label: Line = ""
     columns: Annotated[int, Field(ge=1)] = 1
