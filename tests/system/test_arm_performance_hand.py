@@ -27,7 +27,9 @@ def test_the_hand_comes_nearer_to_every_error_of_the_paper_than_the_given_force_
     assert abs(hand[0] - hand[1]) < 0.6 * abs(force[0] - force[1])
 
 
-def test_the_hand_pushes_less_where_the_arm_follows_better_and_the_given_force_does_not(results: dict[str, Any]) -> None:
+def test_the_hand_pushes_less_where_the_arm_follows_better_and_the_given_force_does_not(
+    results: dict[str, Any],
+) -> None:
     hand = [results[f"largest_force/hand_K{K}"].value for K in GAINS]
     assert hand[0] > 1.1 * hand[1] > 1.1 * hand[2]
     assert [results[f"largest_force/force_K{K}"].value for K in GAINS] == pytest.approx([6.9] * 3, abs=1e-3)

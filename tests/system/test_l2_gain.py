@@ -41,9 +41,9 @@ def test_the_response_is_that_of_the_state_equations() -> None:
 def test_no_force_gets_above_the_true_gain_nor_the_true_gain_above_the_bound() -> None:
     # Forces drawn at random that end, on pairs drawn at random, with lighter and heavier nominals.
     rng = np.random.default_rng(12)
-    time = np.linspace(0.0, 400.0, 40_001)
+    time = np.linspace(0.0, 400.0, 20_001)
     nearest = 0.0
-    for _ in range(30):
+    for _ in range(12):
         M, b, M_n, D_n, K, K_P = np.exp(rng.uniform(np.log([1, 0.05, 0.5, 0.3, 5, 1]), np.log([30, 2, 30, 3, 100, 20])))
         pair = Pair(M=M, b=b, M_n=M_n, D_n=D_n, K=K, K_P=K_P)
         gain = l2_gain(pair)
@@ -51,7 +51,7 @@ def test_no_force_gets_above_the_true_gain_nor_the_true_gain_above_the_bound() -
         u = np.where(time < rng.uniform(5.0, 200.0), np.sin(rng.uniform(0.0, 0.3) * time + rng.uniform(0.0, 3.0)), 0.0)
         _, y, _ = lsim(state_space(pair), u, time)
         measured = math.sqrt(np.sum(y**2) / np.sum(u**2))
-        assert measured <= gain * (1.0 + 1e-3)  # the sum over ticks of 10 ms
+        assert measured <= gain * (1.0 + 1e-3)  # the sum over ticks of 20 ms
         nearest = max(nearest, measured / gain)
     assert nearest > 0.9  # the gain is not only above: a slow force comes near it
 

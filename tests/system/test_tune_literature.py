@@ -1,7 +1,7 @@
 """`exo tune` against the literature's closed boundaries: a sampled wall, and an admittance under a velocity loop.
 
-With a nominal that does not move (M_n → ∞) the law is a sampled wall: y = −dq + K_P (e − T dq/2) makes B_w = K (1 + K_P T/2)
-and K_w = K K_P.
+With a nominal that does not move (M_n → ∞) the law is a sampled wall: y = −dq + K_P (e − T dq/2) makes
+B_w = K (1 + K_P T/2) and K_w = K K_P.
 """
 
 from dataclasses import replace
@@ -13,7 +13,6 @@ from exo import theory
 from exo.theory import Hand, Loop
 from exo.tuning import region
 from exo.tuning.machine import Gains, Machine, loop
-
 from oracles import sampled_wall
 
 M, T = 6.0, 0.002
@@ -56,7 +55,7 @@ def test_the_law_s_matrix_has_the_wall_s_characteristic_roots() -> None:
         machine = Machine(T=T, delay=delay, M_min=M, M_max=M)
         at = loop(machine=machine, gains=Gains(M_n=1e9, D_n=1.0, K=K, K_P=K_P), M=M)
         matrix = theory.closed_loop(loop=at, delay=delay)
-        # Two eigenvalues are the resting nominal's: 1 for its place, 1 for its velocity.
+        # The one nearest to 1 is the velocity of the nominal, which nothing changes.
         eigenvalues = sorted(np.linalg.eigvals(matrix), key=lambda z: abs(z - 1.0))
         rest = max(abs(z) for z in eigenvalues[1:])
         wall = sampled_wall.growth(zeta=K * K_P * T**2 / M, beta=K * (1.0 + K_P * T / 2.0) * T / M, delay=delay)

@@ -67,8 +67,8 @@ def draw_impedance(canvas: Canvas, recordings: Mapping[str, Recording]) -> None:
     M, M_n, D_n = run.parameter("plant.M"), desired_mass(run, controller="controller"), run.parameter("controller.D_n")
     size.loglog(LINE, np.abs(M_n * 1j * LINE + D_n), color="#888888", linewidth=0.8, label="nominal, M_n s + D_n")
     size.loglog(LINE, M * LINE, ":", color="#888888", linewidth=1.2, label="robot, M s")
-    for value, look in ((M_n, "-"), (M, ":")):
-        mass.axhline(value, color="#888888", linewidth=1.0, linestyle=look)
+    for value, dash in ((M_n, "-"), (M, ":")):
+        mass.axhline(value, color="#888888", linewidth=1.0, linestyle=dash)
     resistance.axhline(D_n, color="#888888", linewidth=0.8)
     mass.set_ylim(-2.0, 1.6 * M)
     resistance.set_ylim(-40.0, 20.0)
@@ -80,7 +80,7 @@ def draw_impedance(canvas: Canvas, recordings: Mapping[str, Recording]) -> None:
 
 
 def limits_table(recordings: Mapping[str, Recording]) -> dict[str, list[Any]]:
-    """Of each case with a stiff hand: law, the hand's damping and stiffness, the closed form's limit, and whether it grew in its run."""
+    """Of each case with a stiff hand: law, b_h, k_h, the closed form's limit of k_h, and whether it grew."""
     rows = [
         (
             run.choice("controller.law"),

@@ -22,7 +22,7 @@ class Handle:
     M: Array
 
     @property
-    def Lambda(self) -> Array:
+    def Lambda(self) -> Array:  # noqa: N802, the paper's symbol
         """Mass that a force at the handle feels; infinite where the elbow is stretched and J has no inverse."""
         inverse = np.linalg.inv(self.J)
         return np.asarray(np.swapaxes(inverse, 1, 2) @ self.M @ inverse)
@@ -39,21 +39,22 @@ def handle_of(run: Recording, *, plant: str) -> Handle:
     def on_forearm(x: float, z: float) -> tuple[Array, Array]:
         """Place (r, z) of a point of link 3 and its derivatives by q_2 and q_3 (n, 2, 2)."""
         own = _along(q[:, 1] + q[:, 2], x, z)
-        place = elbow + own + [A1, 0.0]
+        place = elbow + own + np.array([A1, 0.0])
         return place, np.stack([_turned(elbow + own), _turned(own)], axis=2)
 
     upper = _along(q[:, 1], parts["link.x"][1], parts["link.z"][1])
     upper_moves = np.stack([_turned(upper), np.zeros_like(upper)], axis=2)
-    bodies = [
-        (parts["link.m"][1], upper + [A1, 0.0], upper_moves),
-        (parts["link.m"][2], *on_forearm(parts["link.x"][2], parts["link.z"][2])),
-        (run.parameter(f"{plant}.payload.m") * run[f"{plant}.attached"], *on_forearm(value["pad.x"], value["pad.z"])),
+    held = run.parameter(f"{plant}.payload.m") * np.asarray(run[f"{plant}.attached"], dtype=np.float64)
+    bodies: list[tuple[Array, Array, Array]] = [
+        (np.full(len(q), parts["link.m"][1]), upper + np.array([A1, 0.0]), upper_moves),
+        (np.full(len(q), parts["link.m"][2]), *on_forearm(parts["link.x"][2], parts["link.z"][2])),
+        (held, *on_forearm(value["pad.x"], value["pad.z"])),
     ]
     yaw = parts["link.I_zz"][0] + parts["link.m"][0] * parts["link.x"][0] ** 2 + np.zeros(len(q))
     pitch = np.zeros((len(q), 2, 2))
     for m, place, moves in bodies:
         yaw += m * place[:, 0] ** 2
-        pitch += np.reshape(m, (-1, 1, 1)) * np.swapaxes(moves, 1, 2) @ moves
+        pitch += m[:, None, None] * (np.swapaxes(moves, 1, 2) @ moves)
     for link, angle, turning in ((1, q[:, 1], [1.0, 0.0]), (2, q[:, 1] + q[:, 2], [1.0, 1.0])):
         s, c = np.sin(angle), np.cos(angle)
         I_xx, I_xz, I_zz = (parts[f"link.I_{name}"][link] for name in ("xx", "xz", "zz"))

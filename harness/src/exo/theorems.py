@@ -65,7 +65,5 @@ def found_disturbance(*, M: float, K: float, K_P: float, time: Array) -> Array:
     if abs(poles[0] - poles[1]) < 1e-6 * abs(poles[0]):
         poles = poles * np.array([1.0 + 1e-6, 1.0 - 1e-6])
     # Residues of K (s + K_P)/(s M (s − p₁)(s − p₂)), the one at 0 being 1.
-    a, b = (
-        K * (p + K_P) / (M * p * (p - other)) for p, other in ((poles[0], poles[1]), (poles[1], poles[0]))
-    )
+    a, b = (K * (p + K_P) / (M * p * (p - other)) for p, other in ((poles[0], poles[1]), (poles[1], poles[0])))
     return np.asarray((1.0 + a * np.exp(poles[0] * time) + b * np.exp(poles[1] * time)).real)

@@ -1,11 +1,11 @@
 """The sampled virtual wall of the literature, with its boundaries in closed form; shares nothing with `exo`.
 
-A mass M under a sampled spring K_w and damper B_w, the force held over T and d samples late, velocity by backward difference:
+A mass M under a sampled spring K_w and damper B_w, the force held over T and d samples late, the velocity a difference:
 
     M ddx = −K_w x(t_k − dT) − B_w (x(t_k − dT) − x(t_k − (d + 1)T))/T
 
-Colgate and Schenkel (1997) give the damping that makes such a wall passive, Gil et al. and Hulin, Preusche and Hirzinger
-(2006) where a mass at it becomes unstable, with delay. With ζ = K_w T²/M and β = B_w T/M the characteristic equation is
+Colgate and Schenkel (1997) give the damping that makes such a wall passive, Hulin, Preusche and Hirzinger (2006) where
+a mass at it becomes unstable, with delay. With ζ = K_w T²/M and β = B_w T/M the characteristic equation is
 
     z^(d+1) (z − 1)² + ½ (z + 1) (ζ z + β (z − 1)) = 0
 
@@ -40,7 +40,7 @@ def largest_gain(*, ratio: float, delay: int) -> float:
 
 
 def passive_damping(*, K_w: float, B_w: float, T: float) -> float:
-    """The robot's own damping b above which the wall is passive, Colgate and Schenkel's condition evaluated as it stands:
+    """The robot's own damping b above which the wall is passive, by Colgate and Schenkel's condition as it stands:
 
     b > (T/2)/(1 − cos ωT) Re{(1 − exp(−iωT)) H(exp(iωT))},  H = K_w + B_w (1 − 1/z)/T,  over 0 < ω ≤ π/T.
     """

@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import dataclass, replace
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -49,11 +50,13 @@ def expected_robot(run: Recording, *, controller: str, plant: str, omega: NDArra
     if law in COMPARATORS:
         comparator = comparator_of(run, controller=controller, plant=plant)
         return np.array([1.0 / forms.comparator_response(loop=comparator, omega=w) for w in omega])
-    return np.array([1.0 / theory.sampled(loop=small_signal(run, controller=controller, plant=plant), omega=w) for w in omega])
+    return np.array(
+        [1.0 / theory.sampled(loop=small_signal(run, controller=controller, plant=plant), omega=w) for w in omega]
+    )
 
 
 def small_signal(run: Recording, *, controller: str, plant: str) -> theory.Loop:
-    """The unlimited loop: `standard` is the one without reaction, the bounded laws are the paper's while they are small."""
+    """The unlimited loop: `standard` has no reaction; the bounded laws are the paper's below their limits."""
     loop = loop_of(run, controller=controller, plant=plant)
     return replace(loop, alpha=0.0) if run.choice(f"{controller}.law") == "standard" else loop
 
@@ -121,7 +124,7 @@ def hand_limit_of(run: Recording, *, controller: str, plant: str, operator: str)
     def growth(k_h: float) -> float:
         return forms.comparator_growth_rate(loop=replace(comparator, k_h=k_h, b_h=b_h))
 
-    for soft, stiff in zip(STIFFNESSES, STIFFNESSES[1:], strict=False):
+    for soft, stiff in pairwise(STIFFNESSES):
         if growth(stiff) > 0.0:
             return 0.0 if growth(soft) > 0.0 else float(brentq(growth, soft, stiff, rtol=1e-9))
     return math.inf
