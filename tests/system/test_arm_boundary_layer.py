@@ -1,39 +1,19 @@
 """Scenario arm_boundary_layer on the built FMUs, and what the effective disturbance is computed from."""
 
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
 
 from exo import derived, theorems
-from exo.errors import ScenarioError
-from exo.experiment import Experiment
-from exo.fmu import Archive, Instance
+from exo.errors import ExoError, ScenarioError
+from exo.experiment import Experiment, run
 from exo.handle import handle_of
-from exo.scenario import parse
+from exo.scenario import load, parse
 
 from conftest import recording
 
 SCENARIO = "arm_boundary_layer"
-
-
-@pytest.mark.parametrize("q", [(0.0, -1.48096, 1.70138), (0.5, -0.9, 1.2), (-1.1, 0.4, 2.0)])
-def test_the_harness_mass_matrix_is_the_plant_s_own_with_a_payload_and_a_handle_off_the_axis(
-    q: tuple[float, float, float], fmu_dir: Path
-) -> None:
-    with Archive(fmu_dir / "ExoskeletonArm.fmu") as archive, Instance(archive, "arm") as arm:
-        settings: dict[str, Any] = {"payload.m": 10.0, "payload.attached": True, "handle.z": 0.03}
-        for name, value in settings.items() | {(f"q_start[{i}]", angle) for i, angle in enumerate(q, start=1)}:
-            arm.set_start(name, value)
-        arm.setup_experiment(start_time=0.0, stop_time=1.0)
-        arm.enter_initialization_mode()
-        arm.exit_initialization_mode()
-        M = np.array(list(arm.values([f"rigid_body.M[{i}]" for i in range(1, 10)]).values())).reshape(3, 3)
-        parameters = {f"plant.{name}": value for name, value in arm.values(archive.names("parameter")).items()}
-    columns = {f"plant__q_joint[{i}]": [angle] for i, angle in enumerate(q, start=1)}
-    run = recording(time=[0.0], parameters=parameters, plant__attached=[True], **columns)
-    assert handle_of(run, plant="plant").M[0] == pytest.approx(M, abs=1e-13)  # rounding of 10 kg·m²
 
 
 def test_the_jacobian_is_the_slope_of_the_handle(experiment: Experiment) -> None:
@@ -113,3 +93,17 @@ def test_the_testbed_s_effective_disturbance_is_friction_against_the_motion_when
     columns = {"plant__dq": time * 1.0, "plant__tau_h": np.full(50, 3.0), "plant__tau_a": np.zeros(50)}
     run = derived.added(recording(time=time, parameters=parameters, **columns), ["tau_ed"])
     assert run["derived.tau_ed"] == pytest.approx(np.full(50, 1.0), abs=1e-12)
+
+
+def test_a_signal_of_another_plant_says_what_is_missing() -> None:
+    time = np.arange(10) * 0.01
+    with pytest.raises(ExoError, match=r"no parameter plant\.M"):
+        derived.added(recording(time=time, x=time), ["tau_ed"])
+    with pytest.raises(ExoError, match=r"no recorded column controller\.e_nr"):
+        derived.added(recording(time=time, x=time), ["x_nr"])
+
+
+def test_a_column_that_the_scenario_does_not_derive_is_refused_before_anything_runs(fmu_dir: Path) -> None:
+    scenario = load(SCENARIO)
+    with pytest.raises(ScenarioError, match=r"derived\.f_ed\[2\]: not among the scenario's derived signals"):
+        run(scenario=scenario.model_copy(update={"derived": ()}), fmu_dir=fmu_dir)

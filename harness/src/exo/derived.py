@@ -67,7 +67,7 @@ def _f_ed(run: Recording) -> Iterable[Array]:
 def _x_nr(run: Recording) -> Iterable[Array]:
     """‖x_nr‖ = √(Σ e² + Σ de²), x_nr = (e_nr, de_nr); de_nr by central differences."""
     names = [name for name in run.columns if name.partition("[")[0] == "controller.e_nr"]
-    errors = [run[name] for name in names]
+    errors = [run[name] for name in names or ["controller.e_nr"]]
     yield np.sqrt(sum(e**2 + np.gradient(e, run.step) ** 2 for e in errors))
 
 
@@ -89,12 +89,18 @@ def columns(names: Iterable[str], *, owner: str) -> list[str]:
 
 
 def added(run: Recording, names: Iterable[str]) -> Recording:
-    """The recording with these signals."""
+    """The recording with these signals. An `ExoError` says which column or parameter a signal lacks."""
     more: dict[str, Array] = {}
     units: dict[str, str] = {}
     for name in names:
         signal = SIGNALS[name]
-        for column, values in zip(signal.columns, signal.compute(run), strict=True):
+        try:
+            computed = list(signal.compute(run))
+        except np.linalg.LinAlgError as error:
+            raise ScenarioError(
+                f"derived signal {name}: {error}; expected an arm whose elbow is bent at every tick"
+            ) from error
+        for column, values in zip(signal.columns, computed, strict=True):
             more[f"{DERIVED}.{column}"] = np.ascontiguousarray(values)
             units[f"{DERIVED}.{column}"] = signal.unit
     return replace(run, columns={**run.columns, **more}, units={**run.units, **units})
