@@ -23,7 +23,7 @@ class Handle:
 
     @property
     def Lambda(self) -> Array:  # noqa: N802, the paper's symbol
-        """Mass that a force at the handle feels; numpy's LinAlgError where the elbow is stretched, so that J is singular."""
+        """Mass that a force at the handle feels; numpy's LinAlgError where a stretched elbow makes J singular."""
         inverse = np.linalg.inv(self.J)
         return np.asarray(np.swapaxes(inverse, 1, 2) @ self.M @ inverse)
 
