@@ -9,7 +9,7 @@ from importlib import metadata
 from pathlib import Path
 from typing import Any
 
-from exo import metrics, preflight, trial
+from exo import derived, metrics, preflight, trial
 from exo import overrides as settings
 from exo.errors import ScenarioError
 from exo.fmu import Archive, Instance
@@ -102,7 +102,7 @@ def run(
         recordings = {}
         for case in scenario.cases:
             on_case(case)
-            recordings[case.id] = simulate(plan=plans[case.id], archives=archives)
+            recordings[case.id] = derived.added(simulate(plan=plans[case.id], archives=archives), scenario.derived)
         fmus = {name: _facts(archive) for name, archive in archives.items()}
         unwired = preflight.unwired(plans, archives)
         notes = preflight.timing(plans, archives)

@@ -10,7 +10,7 @@ import pyarrow as pa
 from matplotlib import rcsetup
 from matplotlib.figure import Figure as Canvas
 
-from exo import poses, theory
+from exo import handfigures, poses, theory
 from exo.errors import ScenarioError
 from exo.looks import BLACK, BLUE, CYCLE, MARK, VERMILLION, Look, looks
 from exo.metrics.basic import window
@@ -61,6 +61,10 @@ def draw(*, figure: Figure, recordings: Mapping[str, Recording], path: Path) -> 
         canvas = Canvas(layout="constrained")
         if figure.kind == "frequency_response":
             _frequency_response(canvas, recordings)
+        elif figure.kind == "impedance":
+            handfigures.draw_impedance(canvas, recordings)
+        elif figure.kind == "hand_limits":
+            handfigures.draw_limits(canvas, recordings)
         elif figure.poses:
             poses.draw(canvas=canvas, poses=figure.poses, run=recordings[figure.poses.case])
         else:
@@ -184,6 +188,10 @@ def data(*, figure: Figure, recordings: Mapping[str, Recording]) -> pa.Table:
     """The figure's numbers, one column a curve, labelled as in the figure."""
     if figure.kind == "frequency_response":
         return pa.table(response_table(recordings))
+    if figure.kind == "impedance":
+        return pa.table(handfigures.impedance_table(recordings))
+    if figure.kind == "hand_limits":
+        return pa.table(handfigures.limits_table(recordings))
     if figure.poses:
         return pa.table(poses.table(poses=figure.poses, run=recordings[figure.poses.case]))
     runs = {curve.case: recordings[curve.case] for panel in figure.panels for curve in panel.curves}

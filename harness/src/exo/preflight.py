@@ -9,12 +9,12 @@ import re
 from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
-from exo import metrics
+from exo import derived, metrics
 from exo.errors import FmuError, ScenarioError, close_matches
 from exo.fmu import Archive
 from exo.paper import lookup
 from exo.profile import SAME_INSTANT
-from exo.scenario import PROFILE, Metric, Scenario
+from exo.scenario import DERIVED, PROFILE, Metric, Scenario
 from exo.simulate import Plan
 
 #: By how much a ratio of two times may miss a whole number.
@@ -52,25 +52,26 @@ def check(
         _parameters(plan, of, owner)
         _wires(plan, of, owner)
     _memory(scenario, plans, archives)
+    computed = derived.columns(scenario.derived, owner=scenario.id)
     for metric in scenario.metrics:
         for case in metric.cases or tuple(plans):
             of = {name: archives[archive] for name, archive in plans[case].components.items()}
             owner = f"{scenario.id}: metric {metric.id}: case {case}"
             for name in _texts(metric.arguments.values()):
-                if name.split(".", 1)[0] in of and "." in name:
-                    _recorded(name, plans[case], of, owner)
+                if name.split(".", 1)[0] in (*of, DERIVED) and "." in name:
+                    _recorded(name, plans[case], of, computed, owner)
             if not shortened and (window := empty_window(metric, plans[case])):
                 raise ScenarioError(f"{owner}: {window}")
     for case, plan in plans.items():
         of = {name: archives[archive] for name, archive in plan.components.items()}
         for name in scenario.signals:
-            _recorded(name, plan, of, f"{scenario.id}: signals: case {case}")
+            _recorded(name, plan, of, computed, f"{scenario.id}: signals: case {case}")
     for figure in scenario.figures:
         drawn = [(one.case, one.column) for panel in figure.panels for one in panel.curves]
         drawn += [(one.bands.case, one.bands.column) for one in figure.panels if one.bands]
         for case, name in drawn:
             of = {component: archives[archive] for component, archive in plans[case].components.items()}
-            _recorded(name, plans[case], of, f"{scenario.id}: figure {figure.id}: case {case}")
+            _recorded(name, plans[case], of, computed, f"{scenario.id}: figure {figure.id}: case {case}")
 
 
 def empty_window(metric: Metric, plan: Plan) -> str:
@@ -176,8 +177,14 @@ def _memory(scenario: Scenario, plans: Mapping[str, Plan], archives: Mapping[str
         )
 
 
-def _recorded(name: str, plan: Plan, of: Mapping[str, Archive], owner: str) -> None:
+def _recorded(name: str, plan: Plan, of: Mapping[str, Archive], computed: list[str], owner: str) -> None:
     component, variable = name.split(".", 1)
+    if component == DERIVED:
+        if name not in computed:
+            raise ScenarioError(
+                f"{owner}: {name}: not among the scenario's derived signals{close_matches(name, computed)}"
+            )
+        return
     if component not in of:
         raise ScenarioError(f"{owner}: {name}: no component {component}{close_matches(component, of)}")
     if name in plan.inputs:
