@@ -185,7 +185,7 @@ enum {
   EXO_STATE_DEBT = 7,
 };
 
-// Why the law does not simply run; of several reasons the one with the smallest number: diagnostic, first_fault.
+// Why the law does not simply run; of several reasons a fault, else the one with the smallest number: diagnostic, first_fault.
 enum {
   // the law runs or holds
   EXO_DIAGNOSTIC_NONE = 0,
@@ -215,6 +215,10 @@ enum {
   EXO_DIAGNOSTIC_NOT_ENGAGED = 12,
   // engage has not risen since the controller was ready
   EXO_DIAGNOSTIC_ENGAGE_STUCK = 13,
+  // warning, or fault after drift_stop_time: nobody varies the force of the hand, drift_distance
+  EXO_DIAGNOSTIC_FORCE_STEADY = 14,
+  // the same, and the force is what a wrong ft.mass leaves, ft.mass_error
+  EXO_DIAGNOSTIC_TOOL_WEIGHT = 15,
 };
 
 // What is wrong with the sensed positions: encoder.fault.
@@ -396,6 +400,16 @@ typedef struct exo_arm_supervision {
   exo_real hold_brake; // s
   // For how long limits may act before diagnostic reports it; 0 = it does not.
   exo_real saturation_time; // s
+  // Farthest that the nominal's handle moves while nobody varies the force of the hand; then it holds. 0 = any distance.
+  exo_real drift_distance; // m
+  // Change of the hand's force that shows a hand, if it comes within drift_time.
+  exo_real drift_band; // N
+  // Time within which a hand varies its force by drift_band; what takes longer is a drift.
+  exo_real drift_time; // s
+  // For how long a force that nobody varies may press on a nominal that is held for it, before a soft stop; 0 = for ever.
+  exo_real drift_stop_time; // s
+  // Largest error of ft.mass that is reckoned with: a change of force that it explains, as the tool turns, shows no hand.
+  exo_real drift_mass; // kg
 } exo_arm_supervision;
 
 // The parameters `joint.*`: what the form in joint space has of its own. The start values are about the task-space gains
@@ -637,9 +651,9 @@ typedef struct exo_arm_outputs {
   // State of the supervision; without it off, engaged, hold or debt, as engage and hold say and the tank allows.
   int32_t state; // 0 off, 1 init, 2 ready, 3 engaged, 4 hold, 5 soft_stop, 6 fault, 7 debt
   // Why the law does not simply run at this tick; always 0 without supervision.
-  int32_t diagnostic; // 0 none, 1 emergency_stop, 2 encoder_invalid, 3 not_finite, 4 heartbeat_lost, 5 ft_invalid, 6 energy_debt, 7 outside_bounds, 8 saturated, 9 not_acknowledged, 10 not_enabled, 11 preparing, 12 not_engaged, 13 engage_stuck
+  int32_t diagnostic; // 0 none, 1 emergency_stop, 2 encoder_invalid, 3 not_finite, 4 heartbeat_lost, 5 ft_invalid, 6 energy_debt, 7 outside_bounds, 8 saturated, 9 not_acknowledged, 10 not_enabled, 11 preparing, 12 not_engaged, 13 engage_stuck, 14 force_steady, 15 tool_weight
   // The first fault, kept until it is acknowledged; 0 if there is none.
-  int32_t first_fault; // 0 none, 1 emergency_stop, 2 encoder_invalid, 3 not_finite, 4 heartbeat_lost, 5 ft_invalid, 6 energy_debt, 7 outside_bounds, 8 saturated, 9 not_acknowledged, 10 not_enabled, 11 preparing, 12 not_engaged, 13 engage_stuck
+  int32_t first_fault; // 0 none, 1 emergency_stop, 2 encoder_invalid, 3 not_finite, 4 heartbeat_lost, 5 ft_invalid, 6 energy_debt, 7 outside_bounds, 8 saturated, 9 not_acknowledged, 10 not_enabled, 11 preparing, 12 not_engaged, 13 engage_stuck, 14 force_steady, 15 tool_weight
   // Share of its force that the law exerts; it rises from 0 when the controller engages and falls in a soft stop.
   exo_real authority;
   // Nominal mass matrix M_n(q), row by row; 0 in task space.
@@ -655,6 +669,11 @@ typedef struct exo_arm_outputs {
   int32_t encoder_fault; // 0 none, 1 not_finite, 2 over_range, 3 jump, 4 stuck, 5 invalid
   // Whether the tick came in time after the one before.
   int32_t timing; // 0 in_time, 1 late, 2 early
+  // Way of the nominal's handle since somebody last varied the force of the hand; 0 unless drift_distance is set, under
+  // supervision.
+  exo_real unattended; // m
+  // By how much the tool is heavier than ft.mass, as far as the last warning tool_weight could tell; 0 before the first.
+  exo_real ft_mass_error; // kg
 } exo_arm_outputs;
 
 // One variable of a struct.

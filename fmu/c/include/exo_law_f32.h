@@ -163,6 +163,16 @@ typedef struct exo_f32_arm_supervision {
   exo_f32_real hold_brake; // s
   // For how long limits may act before diagnostic reports it; 0 = it does not.
   exo_f32_real saturation_time; // s
+  // Farthest that the nominal's handle moves while nobody varies the force of the hand; then it holds. 0 = any distance.
+  exo_f32_real drift_distance; // m
+  // Change of the hand's force that shows a hand, if it comes within drift_time.
+  exo_f32_real drift_band; // N
+  // Time within which a hand varies its force by drift_band; what takes longer is a drift.
+  exo_f32_real drift_time; // s
+  // For how long a force that nobody varies may press on a nominal that is held for it, before a soft stop; 0 = for ever.
+  exo_f32_real drift_stop_time; // s
+  // Largest error of ft.mass that is reckoned with: a change of force that it explains, as the tool turns, shows no hand.
+  exo_f32_real drift_mass; // kg
 } exo_f32_arm_supervision;
 
 // The parameters `joint.*`: what the form in joint space has of its own. The start values are about the task-space gains
@@ -404,9 +414,9 @@ typedef struct exo_f32_arm_outputs {
   // State of the supervision; without it off, engaged, hold or debt, as engage and hold say and the tank allows.
   int32_t state; // 0 off, 1 init, 2 ready, 3 engaged, 4 hold, 5 soft_stop, 6 fault, 7 debt
   // Why the law does not simply run at this tick; always 0 without supervision.
-  int32_t diagnostic; // 0 none, 1 emergency_stop, 2 encoder_invalid, 3 not_finite, 4 heartbeat_lost, 5 ft_invalid, 6 energy_debt, 7 outside_bounds, 8 saturated, 9 not_acknowledged, 10 not_enabled, 11 preparing, 12 not_engaged, 13 engage_stuck
+  int32_t diagnostic; // 0 none, 1 emergency_stop, 2 encoder_invalid, 3 not_finite, 4 heartbeat_lost, 5 ft_invalid, 6 energy_debt, 7 outside_bounds, 8 saturated, 9 not_acknowledged, 10 not_enabled, 11 preparing, 12 not_engaged, 13 engage_stuck, 14 force_steady, 15 tool_weight
   // The first fault, kept until it is acknowledged; 0 if there is none.
-  int32_t first_fault; // 0 none, 1 emergency_stop, 2 encoder_invalid, 3 not_finite, 4 heartbeat_lost, 5 ft_invalid, 6 energy_debt, 7 outside_bounds, 8 saturated, 9 not_acknowledged, 10 not_enabled, 11 preparing, 12 not_engaged, 13 engage_stuck
+  int32_t first_fault; // 0 none, 1 emergency_stop, 2 encoder_invalid, 3 not_finite, 4 heartbeat_lost, 5 ft_invalid, 6 energy_debt, 7 outside_bounds, 8 saturated, 9 not_acknowledged, 10 not_enabled, 11 preparing, 12 not_engaged, 13 engage_stuck, 14 force_steady, 15 tool_weight
   // Share of its force that the law exerts; it rises from 0 when the controller engages and falls in a soft stop.
   exo_f32_real authority;
   // Nominal mass matrix M_n(q), row by row; 0 in task space.
@@ -422,6 +432,11 @@ typedef struct exo_f32_arm_outputs {
   int32_t encoder_fault; // 0 none, 1 not_finite, 2 over_range, 3 jump, 4 stuck, 5 invalid
   // Whether the tick came in time after the one before.
   int32_t timing; // 0 in_time, 1 late, 2 early
+  // Way of the nominal's handle since somebody last varied the force of the hand; 0 unless drift_distance is set, under
+  // supervision.
+  exo_f32_real unattended; // m
+  // By how much the tool is heavier than ft.mass, as far as the last warning tool_weight could tell; 0 before the first.
+  exo_f32_real ft_mass_error; // kg
 } exo_f32_arm_outputs;
 
 // Parameters of the law of one axis. Any bits may come from C: what cannot be used is refused by name.
