@@ -218,6 +218,7 @@ fn declared_initial_dependencies_are_the_true_ones() {
     moving.encoder.kind = encoder::MOTOR;
     moving.ft.frame = force_sensor::SENSOR;
     moving.ft.noise = 0.1;
+    moving.ft.tool_m = 2.0;
     let mut failed = moving.clone();
     failed.encoder.kind = encoder::JOINT;
     failed.ft.failure = force_sensor::OVER_RANGE;

@@ -5,7 +5,8 @@
 //!
 //! ```text
 //! sign        |r| > drift_band within drift_time,   r = Δf − m Δg,  |m| ≤ drift_mass
-//! attended    the nominal has moved by less than drift_distance since the last sign, its braking included
+//! attended    the nominal has moved by less than drift_distance since the last sign, its braking included, and that is less
+//!             than ten drift_times ago
 //! ```
 //!
 //! Δf and Δg are the changes of force and gravity in the sensor's frame since a first sample, which is taken anew after each sign
@@ -24,6 +25,9 @@ use nalgebra::Vector3;
 /// Time constant with which the watch smooths the force, s: of white noise √(T/(2·0.01 s)) is left, 0.22 at 1 kHz. The end of a
 /// push of F is a sign for 0.01 s·ln(F/drift_band) longer.
 pub const SMOOTHING: Real = 0.01;
+
+/// Times `drift_time` without a sign after which nobody is there, though nothing has moved.
+const PATIENCE: u32 = 10;
 
 /// Beyond it, in N or m/s², no sensor reads; squares stay finite in single precision.
 const LARGEST: Real = 1e6;
@@ -167,7 +171,9 @@ impl DriftWatch {
         }
         let long_ago = self.since > self.time;
         let too_far = self.moved + self.speed * self.braking >= self.distance;
-        if too_far || ((rests || !acts) && long_ago) {
+        // Against a wall it does not move, and presses with K f_h/alpha.
+        let too_long = self.since / PATIENCE >= self.time;
+        if too_far || too_long || ((rests || !acts) && long_ago) {
             self.attended = false;
         }
         let driven = acts && !self.attended && force > self.threshold;

@@ -272,7 +272,7 @@ fn a_load_that_sinks_with_nobody_at_the_handle_is_held_too() {
         story.inputs.force = 0.0;
         let runs = story.supervisor.step(&story.inputs);
         let speed = if matches!(runs, Demand::Run { freedom, .. } if freedom >= 1.0) {
-            0.0086 // f_a/(K D_n) of 17.5 kg
+            0.0172 // f_a/(K D_n) of 35 kg
         } else {
             0.0
         };
@@ -311,6 +311,34 @@ fn after_its_time_a_steady_force_is_a_fault_by_the_same_name() {
         (story.state, story.first_fault),
         (State::Off, Diagnostic::None)
     );
+}
+
+#[test]
+fn a_steady_force_against_a_wall_where_nothing_moves_is_named_after_ten_drift_times_and_stops() {
+    let parameters = Parameters {
+        drift_stop_time: 2.0,
+        ..PARAMETERS
+    };
+    let mut story = Story::engaged(parameters, along_x(0.0));
+    let mut press = |duration: f64, f: &dyn Fn(f64) -> f64| {
+        for k in 0..(duration / T) as u32 {
+            story.inputs.felt = along_x(f(f64::from(k) * T));
+            story.inputs.force = story.inputs.felt.force.norm();
+            story.supervisor.step(&story.inputs);
+            let status = story.supervisor.judge(&Report::default());
+            (story.state, story.first_fault) = (status.state, status.first_fault);
+            story.named.push(status.diagnostic);
+        }
+        (story.state, *story.named.last().unwrap(), story.first_fault)
+    };
+    let none = Diagnostic::None;
+    press(0.2, &|t| 20.0 * t);
+    assert_eq!(press(9.8, &|_| 4.0), (State::Engaged, none, none));
+    assert_eq!(press(0.3, &|_| 4.0), (State::Hold, none, none));
+    let named = (State::Hold, Diagnostic::ForceSteady, none);
+    assert_eq!(press(1.0, &|_| 4.0), named);
+    let (state, _, first) = press(1.0, &|_| 4.0);
+    assert_eq!((state, first), (State::Fault, Diagnostic::ForceSteady));
 }
 
 /// What a tool that is `wrong` (kg) heavier than it was said to be leaves of its weight at a pitch, tared at pitch 0.
