@@ -2,18 +2,19 @@
 
 use crate::TestbedController;
 use crate::controller::Controller;
-use crate::rows::TORQUE;
 use admittance::Law;
 use admittance::encoder::{self, Age};
+use admittance::one_axis::form::TORQUE;
 use admittance::one_axis::{AxisInputs, NotFinite};
 use admittance::parameters::in_range;
+use admittance::servo;
 use export::{Clock, Log, Model, Refusal, Step, Ticks};
 
 impl Model for TestbedController {
     fn initialize(&mut self, _start_time: f64, log: &mut Log<'_>) -> Result<(), Refusal> {
         in_range(self).map_err(Refusal::new)?;
         let controller =
-            Controller::new(&self.parameters, self.form, &self.comparator).map_err(Refusal::new)?;
+            Controller::new(&self.parameters, &self.comparator).map_err(Refusal::new)?;
         self.gain_warning = 0;
         self.advise(log)?;
         // What is shown is a controller at rest; what begins to run knows no motion yet.
@@ -54,12 +55,17 @@ impl Model for TestbedController {
             // The position was read for the first tick of the step; the others see the same one.
             let after = self.age.at(k == first);
             let before = self.outputs.encoder_fault;
+            let drive = self.outputs.drive_fault;
             self.tick(after)
                 .map_err(|NotFinite| self.overflow(&format!("tick {k}")))?;
             let fault = self.outputs.encoder_fault;
             if ![0, before].contains(&fault) {
                 let q = self.inputs.q;
                 log.warning(format_args!("{}; q = {q:?} m", encoder::message(fault)));
+            }
+            let fault = self.outputs.drive_fault;
+            if ![0, drive].contains(&fault) {
+                log.warning(format_args!("{}", servo::message(fault)));
             }
             self.tick = i32::try_from(k).unwrap_or(i32::MAX);
         }
@@ -70,9 +76,7 @@ impl Model for TestbedController {
 impl TestbedController {
     fn tick(&mut self, after: u32) -> Result<(), NotFinite> {
         if let Some(controller) = &mut self.controller {
-            let command =
-                controller.tick(&self.inputs, after, self.tau_a_measured, &mut self.outputs)?;
-            (self.q_d, self.dq_d) = (command.q_d, command.dq_d);
+            controller.tick(&self.inputs, after, &mut self.outputs)?;
         }
         Ok(())
     }
@@ -81,7 +85,7 @@ impl TestbedController {
     fn advise(&mut self, log: &mut Log<'_>) -> Result<(), Refusal> {
         let law = Law::try_from(self.parameters.law).map_err(Refusal::new)?;
         let mut advice = self.parameters.advice().map_err(Refusal::new)?;
-        advice.stiff_coupling &= self.form == TORQUE; // else the coupling is the drive's
+        advice.stiff_coupling &= self.parameters.form == TORQUE; // else the coupling is the drive's
         advice.light_nominal &= law.row().nominal_mass;
         let before = std::mem::replace(&mut self.gain_warning, advice.number());
         if ![0, before].contains(&self.gain_warning) {
@@ -92,9 +96,17 @@ impl TestbedController {
 
     #[cold]
     fn overflow(&self, when: &str) -> Refusal {
-        let AxisInputs { q, tau_h, .. } = self.inputs;
-        Refusal(format!(
-            "{when}: the law's result is not finite with q = {q} m and tau_h = {tau_h} N"
-        ))
+        let AxisInputs {
+            q,
+            tau_h,
+            tau_a_measured,
+            ..
+        } = self.inputs;
+        let mut message =
+            format!("{when}: the law's result is not finite with q = {q} m and tau_h = {tau_h} N");
+        if self.parameters.form != TORQUE {
+            message += &format!(" and tau_a_measured = {tau_a_measured} N");
+        }
+        Refusal(message)
     }
 }
