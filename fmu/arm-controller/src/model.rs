@@ -2,7 +2,9 @@
 
 use crate::ArmController;
 use admittance::encoder::{self, Age};
+use admittance::servo;
 use arm_law::arm_law::NotFinite;
+use arm_law::choices::TORQUE;
 use arm_law::{ArmInputs, ArmLaw};
 use export::{Clock, Log, Model, Refusal, Step, Ticks};
 
@@ -47,6 +49,7 @@ impl Model for ArmController {
             // The angles were read for the first tick of the step; the others see the same ones.
             let after = self.age.at(k == first);
             let before = self.outputs.encoder_fault;
+            let drive = self.outputs.drive_fault;
             if let Err(NotFinite) = arm_law.tick_after(after, &self.inputs, &mut self.outputs) {
                 return Err(self.overflow(&format!("tick {k}")));
             }
@@ -54,6 +57,10 @@ impl Model for ArmController {
             if ![0, before].contains(&fault) {
                 let q = self.inputs.q;
                 log.warning(format_args!("{}; q = {q:?} rad", encoder::message(fault)));
+            }
+            let fault = self.outputs.drive_fault;
+            if ![0, drive].contains(&fault) {
+                log.warning(format_args!("{}", servo::message(fault)));
             }
             self.tick = i32::try_from(k).unwrap_or(i32::MAX);
         }
@@ -74,9 +81,18 @@ impl ArmController {
 
     #[cold]
     fn overflow(&self, when: &str) -> Refusal {
-        let ArmInputs { q, f_h, .. } = self.inputs;
-        Refusal(format!(
+        let ArmInputs {
+            q,
+            f_h,
+            tau_a_measured,
+            ..
+        } = self.inputs;
+        let mut message = format!(
             "{when}: the law's result is not finite with q = {q:?} rad and f_h = {f_h:?} N"
-        ))
+        );
+        if self.parameters.form != TORQUE {
+            message += &format!(" and tau_a_measured = {tau_a_measured:?} N·m");
+        }
+        Refusal(message)
     }
 }

@@ -9,8 +9,8 @@ use declaration::choices;
 use nalgebra::Vector1;
 
 choices! { FORM "Form" "What the robot gets from the controller":
-    TORQUE = 1 "torque" "the force tau_a";
-    POSITION_SERVO = 2 "position_servo" "q_d and dq_d, for a drive that closes the loop with K and K_P itself; needs tau_a_measured";
+    TORQUE = 1 "torque" "the force, or torques, tau_a";
+    POSITION_SERVO = 2 "position_servo" "q_d and dq_d, for drives that close the loop with K and K_P themselves; needs tau_a_measured; an arm in joint space only";
 }
 
 /// The law between two ticks.

@@ -56,12 +56,16 @@ impl<const N: usize> Drive<N> {
         for (name, (now, wanted)) in names.into_iter().zip(pairs) {
             for (axis, (now, wanted)) in (1..).zip(now.iter().zip(wanted)) {
                 if wanted != now {
-                    let expected = "the value at the start, in servo form the drive has it too";
-                    let axis = (N > 1).then_some(axis);
-                    return Err(ParameterError::of(name, axis, *wanted, expected));
+                    return Err(Self::not_kept(name, (N > 1).then_some(axis), *wanted));
                 }
             }
         }
         Ok(())
+    }
+
+    /// The refusal of the `value` of the gain `name` that the drive does not have; the axis counts from 1.
+    pub const fn not_kept(name: &'static str, axis: Option<usize>, value: Real) -> ParameterError {
+        let expected = "the value at the start, in servo form the drive has it too";
+        ParameterError::of(name, axis, value, expected)
     }
 }
