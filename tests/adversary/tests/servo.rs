@@ -8,7 +8,7 @@ use adversary::case::Case;
 use adversary::genes::Genes;
 use adversary::plain_servo::{FEELS_IN_DEBT, NO_SETTLING, NO_STANDSTILL, PlainServo};
 use adversary::random::Random;
-use adversary::servo::{Commands, Shown, run, servo_case};
+use adversary::servo::{Commands, JointDrives, Shown, run, servo_case};
 use adversary::subject::{Order, Setup};
 use nalgebra::Vector1;
 
@@ -17,6 +17,14 @@ fn case<const N: usize>(seed: u64) -> Case<N> {
 }
 
 fn unbroken<const N: usize, C: Commands<N>>(seeds: u64, ticks: u32) {
+    unbroken_in::<N, C>(seeds, ticks, case);
+}
+
+fn unbroken_in<const N: usize, C: Commands<N>>(
+    seeds: u64,
+    ticks: u32,
+    case: impl Fn(u64) -> Case<N>,
+) {
     let (mut worst, mut rounding, mut debts) = (0.0_f64, 0.0_f64, 0);
     for seed in 0..seeds {
         let shown = run::<N, C>(&case(seed), ticks);
@@ -39,6 +47,18 @@ fn one_axis_owes_a_sample_s_worth_at_most() {
 #[test]
 fn three_axes_under_one_tank_owe_a_sample_s_worth_at_most() {
     unbroken::<3, Servo<Axes<3>, 3>>(1000, 200);
+}
+
+#[test]
+fn the_arm_s_joints_owe_a_sample_s_worth_at_most() {
+    let joints = |seed| {
+        let mut case = case::<3>(seed);
+        for i in 1..3 {
+            case.setup.gains[i].K = case.setup.gains[0].K; // one number for all joints
+        }
+        case
+    };
+    unbroken_in::<3, JointDrives>(600, 200, joints);
 }
 
 /// The case of a seed without commands and bounds, which [`PlainServo`] does not know.
