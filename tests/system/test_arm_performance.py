@@ -1,5 +1,6 @@
 """Scenario arm_performance on the built FMUs."""
 
+import itertools
 from pathlib import Path
 from typing import Any
 
@@ -46,3 +47,10 @@ def test_another_gain_set_for_all_axes_at_once_is_outside_of_every_tolerance(fmu
     for result in errors:
         assert result.margin < 0.0, result.id
         assert (result.verdict, result.void_by[0]) == ("info", "controller.K[1]")
+
+
+def test_the_whole_norm_of_theorem_3_falls_with_every_doubling_too(results: dict[str, Any]) -> None:
+    # Between a step of friction far below the limit, √2 less what sampling hides, and the theorem's 2.
+    norms = [results[f"max_state/K{K}"].value for K in (250, 500, 1000)]
+    for less, more in itertools.pairwise(norms):
+        assert 1.3 < less / more < 2.0

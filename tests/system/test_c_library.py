@@ -21,6 +21,7 @@ ROOT = Path(__file__).parents[2]
 #: Variables of the controllers that the C library does not have: outside the law, or shown for curiosity.
 WITHOUT = (
     "controller.tick",  # the caller counts
+    "controller.sample_period",  # the caller's clock
     "controller.gain_warning",  # advice while gains are chosen
     "controller.M_min",
     "controller.M_n[",

@@ -246,23 +246,25 @@ def test_the_harness_loop_equals_fmpy_s_own_calls_bit_for_bit(
 
 
 @pytest.mark.parametrize(("file", "force"), [("TestbedController.fmu", "tau_h"), ("ArmController.fmu", "f_h[3]")])
-def test_one_large_step_runs_the_same_ticks_as_many_small_ones(
+def test_steps_that_divide_the_period_run_its_ticks_and_a_longer_one_is_one_sample(
     file: str, force: str, archives: Mapping[str, Archive]
 ) -> None:
     archive = archives[file]
     T = float(archive.description.defaultExperiment.stepSize)
-    with slave(archive, "large") as large, slave(archive, "small") as small:
+    with slave(archive, "whole") as whole, slave(archive, "small") as small, slave(archive, "large") as large:
         reals = [v.valueReference for v in archive.variables.values() if v.causality == "output" and v.type == "Real"]
-        for part in (large, small):
+        for part in (whole, small, large):
             part.setupExperiment(startTime=0.0)
             part.enterInitializationMode()
             part.exitInitializationMode()
             part.setReal([archive.variable(force).valueReference], [2.0])
-        first = large.getReal(reals)
-        large.doStep(0.0, 50 * T)
-        h = T / 3.0
+        first = whole.getReal(reals)
+        for k in range(50):
+            whole.doStep(k * T, T)
         for i in range(150):
-            small.doStep(i * h, h)
-        assert first != large.getReal(reals) == small.getReal(reals)
-        tick = [archive.variable("tick").valueReference]
-        assert large.getInteger(tick) == small.getInteger(tick) == [49]
+            small.doStep(i * T / 3.0, T / 3.0)
+        large.doStep(0.0, 50 * T)
+        assert first != whole.getReal(reals) == small.getReal(reals)
+        tick, period = ([archive.variable(name).valueReference] for name in ("tick", "sample_period"))
+        assert [part.getInteger(tick) for part in (whole, small, large)] == [[49], [49], [0]]
+        assert [part.getReal(period)[0] for part in (whole, small, large)] == pytest.approx([T, T, 50 * T], rel=1e-12)

@@ -7,7 +7,7 @@ import pytest
 
 from exo import metrics, theory
 from exo.errors import ExoError, ScenarioError
-from exo.metrics import basic, coupling, events, growth, loops, response, wall
+from exo.metrics import basic, coupling, events, growth, impedance, loops, response, theorems, wall
 from exo.scenario import Check, Segment
 from exo.verdict import judge
 
@@ -73,6 +73,18 @@ def test_the_largest_step_is_that_into_a_tick_of_the_window() -> None:
     assert basic.largest_step(run, columns=("x",), after=2.01, before=3.0) == 0.0
     assert basic.largest_step(run, columns=("y",), after=0.0, before=3.0) == pytest.approx(0.001)
     assert basic.largest_step(run, columns=("y", "x"), after=2.5, before=3.01) == 5.0
+
+
+def test_the_farthest_is_a_distance_from_the_first_tick_of_the_window() -> None:
+    # Three quarters of a circle of radius 2 m about (2, 0) from t = 0 on: the far side is 4 m away.
+    angle = np.pi + 1.5 * np.pi * TIME / TIME[-1]
+    run = recording(time=TIME, x=2.0 + 2.0 * np.cos(angle), y=2.0 * np.sin(angle))
+    assert basic.farthest(run, columns=("x", "y"), after=0.0) == pytest.approx(4.0)
+    assert basic.farthest(run, columns=("y",), after=0.0) == pytest.approx(2.0)
+    half = TIME[-1] / 2
+    chord = 4.0 * np.sin(0.75 * np.pi / 2)  # three quarters of half a turn
+    assert basic.farthest(run, columns=("x", "y"), after=half) == pytest.approx(chord, rel=1e-3)
+    assert basic.farthest(run, columns=("x",), after=1.0, before=1.005) == 0.0
 
 
 def test_ticks_until_counts_from_the_first_tick_of_the_window() -> None:
@@ -297,3 +309,55 @@ def test_verdicts_turn_at_the_tolerance(check: Check, good: float, bad: float) -
 
 def test_without_an_expectation_a_number_is_information() -> None:
     assert judge(metric="m", title="", value=1.0, unit="", check=Check(), source="").verdict == "info"
+
+
+def test_an_l2_gain_is_a_quotient_of_norms_and_infinite_where_nothing_drives() -> None:
+    run = recording(time=TIME, a=np.full(1000, 3.0), b=np.full(1000, -4.0), u=np.full(1000, 2.0), none=np.zeros(1000))
+    assert theorems.l2_square(run, columns=("a", "b"), after=2.0, before=4.0) == pytest.approx(50.0)
+    assert theorems.l2_gain(run, outputs=("a", "b"), inputs=("u",)) == pytest.approx(2.5)
+    assert theorems.l2_gain(run, outputs=("a",), inputs=("none",)) == math.inf
+    assert math.isnan(theorems.l2_gain(run, outputs=("none",), inputs=("none",)))
+
+
+def test_the_rise_of_a_first_order_lag_takes_its_time_constant_and_does_not_overshoot() -> None:
+    step = np.where(TIME >= 1.0, 5.0, 0.0)
+    lag = step * (1.0 - np.exp(-(TIME - 1.0) / 0.5))
+    run = recording(time=TIME, step=step, lag=lag, above=1.2 * step)
+    rise = theorems.rise_time(run, column="lag", of="step", after=1.0, share=1.0 - math.exp(-1.0))
+    assert rise == pytest.approx(0.5, abs=0.011)  # a tick
+    assert math.isnan(theorems.rise_time(run, column="lag", of="step", after=1.0, share=2.0))
+    assert theorems.overshoot(run, column="lag", of="step", after=1.0) < 0.0
+    assert theorems.overshoot(run, column="above", of="step", after=1.0) == pytest.approx(0.2)
+
+
+def test_what_is_left_at_the_end_is_a_share_of_the_largest() -> None:
+    run = recording(time=TIME, x=-np.exp(-TIME))
+    assert theorems.left_at_the_end(run, column="x", last=1.0) == pytest.approx(math.exp(-8.99), rel=0.02)
+
+
+def test_a_swing_that_grows_is_told_from_one_that_decays() -> None:
+    run = recording(
+        time=TIME, up=np.exp(0.1 * TIME) * np.sin(3.0 * TIME), down=np.exp(-0.1 * TIME) * np.sin(3.0 * TIME)
+    )
+    assert impedance.grows(run, column="up") == 1.0
+    assert impedance.grows(run, column="down") == 0.0
+
+
+def test_an_impedance_is_found_from_several_sines_at_once() -> None:
+    # Z = 2 s + 3 for the robot, and a hand of 4 N·s/m beside it.
+    time = np.arange(20_000) * 1e-3
+    omega = 2.0 * math.pi * np.array([0.5, 2.0])
+    turns = np.outer(time, omega)
+    dq = np.sin(turns).sum(axis=1)
+    tau_h = (2.0 * omega * np.cos(turns) + 3.0 * np.sin(turns)).sum(axis=1)
+    parameters = {f"operator.segment[{i}].amplitude": float(i in (2, 5)) for i in range(1, 17)}
+    parameters |= {"operator.segment[2].frequency": 0.5, "operator.segment[5].frequency": 2.0}
+    columns = {"plant__dq": dq, "controller__tau_h": tau_h, "operator__f_profile[1]": tau_h + 4.0 * dq}
+    run = recording(time=time, parameters=parameters, **columns)
+    who = {"controller": "controller", "plant": "plant", "operator": "operator", "after": 10.0}
+    found = impedance.impedance_of(run, **who)
+    assert found.robot == pytest.approx(2j * omega + 3.0, rel=1e-9)
+    assert found.held == pytest.approx(2j * omega + 7.0, rel=1e-9)
+    assert impedance.apparent_mass(run, **who, frequency=2.1) == pytest.approx(2.0)
+    assert impedance.least_resistance(run, **who) == pytest.approx(3.0)
+    assert impedance.least_conductance(run, **who) == pytest.approx(3.0 / math.hypot(3.0, 2.0 * omega[1]))

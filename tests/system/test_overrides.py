@@ -149,7 +149,7 @@ def test_a_shorter_run_leaves_what_it_does_not_reach_undefined(run: Any) -> None
 
 @pytest.mark.parametrize("name", [name for name in scenario.built_in() if "arm" not in name] + ["arm_delay"])
 def test_the_beginning_of_a_scenario_can_be_run_alone(name: str, tmp_path: Path, fmu_dir: Path) -> None:
-    answer = exo("run", name, "--duration", "0.1", "--fmu-dir", fmu_dir, "--out", tmp_path)
+    answer = exo("run", name, "--duration", "0.12", "--fmu-dir", fmu_dir, "--out", tmp_path)
     assert answer.exit_code == 0, answer.output + answer.stderr
 
 

@@ -99,7 +99,6 @@ def test_two_files_with_one_id_are_refused(tmp_path: Path, fmu_dir: Path) -> Non
         (changed('column = "plant.q" }', 'column = "plant.tau_d" }'), ["plant.tau_d is not recorded"]),
         (changed('column = "plant.q", label', 'column = "plant.qq", label'), ["figure q: case push", "qq"]),
         (changed('title = "A', 'signals = ["plant.x"]\ntitle = "A'), ["signals", "no variable x"]),
-        (changed("step = 0.002", "step = 0.003").replace("duration = 1.0", "duration = 3.0"), ["controller.T 0.002 s"]),
         (SHORT.replace("[components.plant", '[components."a.b"'), ["components.a.b"]),
         (SHORT.replace("[components.plant", "[components.profile"), ["components.profile: this name stands"]),
         (changed('[[cases]]\nid = "push"', '[[cases]]\nid = "push"\nparameters = { "controller.q" = 1.0 }'), [
@@ -133,7 +132,6 @@ def test_what_a_file_says_wrong_is_told_before_anything_runs(text: str | bytes, 
         (["--duration", "nan"], ["--duration nan: expected a time above 0 s"]),
         (["--duration", "-1"], ["--duration -1: expected a time above 0 s"]),
         (["--step", "0"], ["--step 0: expected a time above 0 s"]),
-        (["--step", "0.003", "--duration", "3"], ["step 0.003 s and controller.T 0.002 s do not fit"]),
     ],
 )
 def test_what_an_option_says_wrong_is_told_before_anything_runs(more: list[str], words: list[str], run: Any) -> None:

@@ -126,7 +126,9 @@ def test_who_ends_the_checker_leaves_neither_files_nor_processes(
     number: signal.Signals, tmp_path: Path, temporary: Path
 ) -> None:
     path = plain(tmp_path, "-DHANG").write(tmp_path)
-    command = [sys.executable, "-c", "import sys; from exo.cli import app; app()", "validate", str(path)]
+    # A shell's background jobs ignore SIGINT, and so would the checker if the tests are one.
+    heard = "import signal; signal.signal(signal.SIGINT, signal.default_int_handler)"
+    command = [sys.executable, "-c", f"{heard}; from exo.cli import app; app()", "validate", str(path)]
     checker = subprocess.Popen(
         command, env={**os.environ, "TMPDIR": str(temporary)}, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
     )

@@ -119,6 +119,7 @@ impl<const N: usize> Admittance<N> {
             f_h,
             authority: request.authority(),
             request,
+            after: request.after,
         };
         self.sampled.tick(&inputs, &Direct, accept)
     }
@@ -156,9 +157,25 @@ impl<const N: usize> Admittance<N> {
         }
     }
 
+    /// A force begins to act this `part` of a sample after its tick, in (0, 1): [`acts`](Self::acts) says where. Only with a
+    /// delay.
+    pub fn lag(&mut self, part: Real) {
+        self.sampled.lag(part);
+    }
+
+    /// The force of the last tick begins to act at the positions `q` (m); `None` where they are not known.
+    pub fn acts(&mut self, q: Option<&SVector<Real, N>>) {
+        self.sampled.acts(q);
+    }
+
     /// The force that the last tick said, N.
     pub fn f(&self) -> &SVector<Real, N> {
         self.sampled.tau()
+    }
+
+    /// Sample period, s.
+    pub fn T(&self) -> Real {
+        self.sampled.T()
     }
 
     /// Energy stored and created, as of the last tick.

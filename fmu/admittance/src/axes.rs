@@ -31,6 +31,8 @@ pub struct Request<const N: usize> {
     pub damping: SVector<Real, N>,
     /// Speed that the nominal must not exceed, beside its bounds, m/s, ≥ 0; infinite for no limit.
     pub speed: SVector<Real, N>,
+    /// Sample periods that have passed since the position before this one was read; 1: the tick is in time.
+    pub after: Real,
 }
 
 impl<const N: usize> Default for Request<N> {
@@ -41,6 +43,7 @@ impl<const N: usize> Default for Request<N> {
             hold: false,
             damping: SVector::zeros(),
             speed: SVector::repeat(Real::INFINITY),
+            after: 1.0,
         }
     }
 }
@@ -128,9 +131,9 @@ impl<const N: usize> Coordinates<N> for Axes<N> {
     }
 
     #[inline]
-    fn sense(&self, q: &SVector<Real, N>) -> [AxisSensed; N] {
+    fn sense(&self, q: &SVector<Real, N>, after: Real) -> [AxisSensed; N] {
         if self.engaged {
-            each(|i| self.axes[i].sense(q[i], &self.settings, &self.sampling))
+            each(|i| self.axes[i].sense(q[i], after, &self.settings, &self.sampling))
         } else {
             each(|i| self.axes[i].engage(q[i]))
         }

@@ -5,7 +5,7 @@ use crate::midpoint::{self, Midpoint, Rule, Sample, slower};
 use crate::motion::Sampling;
 use crate::real::{floored, sat};
 use crate::retune::{self, Tuning};
-use crate::{Bounds, Gains, Real, Settings};
+use crate::{Bounds, Gains, Real, Settings, timing};
 
 /// One axis of the law between two ticks.
 ///
@@ -116,17 +116,30 @@ impl Axis {
         }
     }
 
-    /// The axis in the loop at a tick with position `q` (m): gains on their way take over, the spring slips.
+    /// The axis in the loop at a tick with position `q` (m), which was read `after` sample periods after the last one: gains
+    /// on their way take over, the spring slips.
     #[inline]
-    pub fn sense(&self, q: Real, settings: &Settings, sampling: &Sampling) -> AxisSensed {
+    pub fn sense(
+        &self,
+        q: Real,
+        after: Real,
+        settings: &Settings,
+        sampling: &Sampling,
+    ) -> AxisSensed {
         let last = &self.last;
-        let (mut e, mut v_n) = (last.q_n - q, last.v_n);
+        let q_n = if after == 1.0 {
+            last.q_n
+        } else {
+            let way = timing::more(after) * settings.T * last.v_n;
+            Bounds::kept(self.bounds.as_ref(), last.q_n, way)
+        };
+        let (mut e, mut v_n) = (q_n - q, last.v_n);
         if let Some(gains) = self.tuning.changed_from() {
             (e, v_n) = retune::taken_over(settings.law, gains, self.tuning.now(), e, v_n);
         }
         AxisSensed {
             q,
-            dq: sampling.dq(last.q, last.dq, q),
+            dq: sampling.dq(last.q, last.dq, q, after),
             e: self.rule.spring.slipped(e),
             v_n,
         }

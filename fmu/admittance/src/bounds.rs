@@ -62,6 +62,16 @@ impl Bounds {
         }
     }
 
+    /// Where a nominal at `q_n` (m) is that goes on by `way` (m), as far as the box of these bounds, if there are any, lets it.
+    #[cold]
+    pub fn kept(of: Option<&Self>, q_n: Real, way: Real) -> Real {
+        let wanted = q_n + way;
+        of.map_or(wanted, |Self { q_min, q_max, .. }| {
+            let (low, high) = (real::min(*q_min, q_n), real::max(*q_max, q_n));
+            real::max(low, real::min(wanted, high))
+        })
+    }
+
     /// The interval for v_m (m/s) of a nominal at `q_n` (m), with sample period `T` (s).
     pub fn interval(&self, q_n: Real, T: Real, hold: bool) -> Interval {
         if hold {

@@ -103,6 +103,13 @@ impl<const N: usize> SampleReach<N> {
         work
     }
 
+    /// The same by the largest speed alone, whatever the last motion was.
+    #[cold]
+    #[inline(never)]
+    pub fn most_by_speed(&self, f: &SVector<Real, N>) -> Real {
+        f.abs().dot(&self.reach.v_max) * self.T
+    }
+
     /// Whether a motion by `step` (m), after one by `last`, is one for which nothing is promised. The product's rounding is
     /// allowed for.
     #[inline]

@@ -64,7 +64,7 @@ impl Desired {
     /// A tick at position `q` (m) with the human's force `f_h` (N): the model's position q_n (m), and the sample that begins.
     /// The first one engages with q_n = q, v_n = 0.
     pub fn sense(&mut self, q: Real, f_h: Real) -> (Real, Sample) {
-        let dq = self.motion.dq(q, &self.sampling);
+        let dq = self.motion.dq(q, 1.0, &self.sampling);
         self.motion = Motion::at(q, dq);
         let q_n = self.q_n.unwrap_or(q);
         let sample = Sample {

@@ -52,8 +52,8 @@ pub struct Positions<const N: usize> {
     pub q: SVector<f64, N>,
     /// The encoders' own word.
     pub valid: bool,
-    /// Ticks since the reading before this one; 0: it is the same one.
-    pub after: u32,
+    /// Sample periods since the reading before this one; 1: it is in time.
+    pub after: Real,
 }
 
 impl<const N: usize> Positions<N> {
@@ -65,33 +65,6 @@ impl<const N: usize> Positions<N> {
             doubted: false,
             fault: None,
         }
-    }
-}
-
-/// How old the reading of an importer is, whose step may have several ticks or none.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct Age {
-    ticks: u32,
-}
-
-impl Default for Age {
-    /// Before the first tick.
-    fn default() -> Self {
-        Self { ticks: 1 }
-    }
-}
-
-impl Age {
-    /// At a tick with a `fresh` reading: ticks since the reading before it. At one that sees the last reading again: 0.
-    pub const fn at(&mut self, fresh: bool) -> u32 {
-        let after = if fresh { self.ticks } else { 0 };
-        self.ticks = if fresh {
-            1
-        } else {
-            self.ticks.saturating_add(1)
-        };
-        after
     }
 }
 
@@ -119,9 +92,9 @@ pub struct Encoders<const N: usize> {
     read: Option<SVector<f64, N>>,
     /// the last position that the law was told
     told: Option<SVector<f64, N>>,
-    /// where it was `ticks` ticks before
+    /// where it was `ticks` sample periods before
     before: SVector<f64, N>,
-    ticks: u32,
+    ticks: Real,
     /// doubtful readings in a row, or sound ones during a fault
     count: u32,
     fault: Option<Fault>,
@@ -133,6 +106,12 @@ pub struct Encoders<const N: usize> {
     stuck: usize,
     /// whether nothing is wrong and no position may be stuck
     is_quiet: bool,
+}
+
+/// As many sample periods, or one where it was less: what a clock says of a part of one is not what a jump is judged by.
+#[inline]
+fn at_least_one(periods: Real) -> Real {
+    if periods > 1.0 { periods } else { 1.0 }
 }
 
 impl<const N: usize> Encoders<N> {
@@ -153,7 +132,7 @@ impl<const N: usize> Encoders<N> {
             read: None,
             told: None,
             before: SVector::zeros(),
-            ticks: 1,
+            ticks: 1.0,
             count: 0,
             fault: None,
             doubt: None,
@@ -169,7 +148,6 @@ impl<const N: usize> Encoders<N> {
     pub fn is_sound(&self, reading: &Positions<N>) -> bool {
         let Positions { q, valid, after } = reading;
         *valid
-            && *after > 0
             && self.is_quiet
             && (0..N).all(|i| abs(q[i] as Real) <= self.checks.range[i]) // no NaN either
             && !self.jumps(self.told.as_ref(), q, *after)
@@ -209,10 +187,6 @@ impl<const N: usize> Encoders<N> {
         if !q.iter().all(|q| q.is_finite()) {
             return self.lost(Fault::NotFinite);
         }
-        if after == 0 && self.last() == Some(q) {
-            return self.again();
-        }
-        let after = after.max(1);
         let over = (0..N).any(|i| abs(q[i] as Real) > self.checks.range[i]);
         let stuck = self.is_stuck(&q, force);
         let found = if over {
@@ -255,15 +229,6 @@ impl<const N: usize> Encoders<N> {
         self.failed(fault)
     }
 
-    /// The same reading as at the last tick.
-    fn again(&self) -> Believed<N> {
-        Believed {
-            q: self.told,
-            doubted: self.doubt.is_some(),
-            fault: self.fault.or(self.doubt),
-        }
-    }
-
     /// One more reading after a fault that lasts.
     #[cold]
     fn recovering(
@@ -271,7 +236,7 @@ impl<const N: usize> Encoders<N> {
         fault: Fault,
         found: Option<Fault>,
         q: &SVector<f64, N>,
-        after: u32,
+        after: Real,
     ) -> Believed<N> {
         let stuck = |read: SVector<f64, N>| (0..N).any(|i| i == self.stuck && read[i] == q[i]);
         let stands = fault == Fault::Stuck && self.last().is_some_and(stuck);
@@ -290,12 +255,12 @@ impl<const N: usize> Encoders<N> {
 
     /// One more reading that cannot be.
     #[cold]
-    fn doubt(&mut self, fault: Fault, in_loop: bool, after: u32) -> Believed<N> {
+    fn doubt(&mut self, fault: Fault, in_loop: bool, after: Real) -> Believed<N> {
         self.count += 1;
         let lasting = fault == Fault::Stuck || !in_loop || self.count >= self.checks.samples;
         match self.told {
             Some(told) if !lasting => {
-                let way = (told - self.before) * (f64::from(after) / f64::from(self.ticks));
+                let way = (told - self.before) * self.ahead(after);
                 (self.before, self.ticks) = (told, after);
                 (self.told, self.doubt) = (Some(told + way), Some(fault));
                 Believed {
@@ -329,8 +294,8 @@ impl<const N: usize> Encoders<N> {
         }
     }
 
-    /// Believes `q`, to which the robot has moved in this many ticks.
-    fn follow(&mut self, q: SVector<f64, N>, after: u32) {
+    /// Believes `q`, to which the robot has moved in this many sample periods.
+    fn follow(&mut self, q: SVector<f64, N>, after: Real) {
         (self.before, self.ticks) = (self.told.unwrap_or(q), after);
         (self.told, self.read, self.count) = (Some(q), None, 0);
         (self.fault, self.doubt) = (None, None);
@@ -339,33 +304,44 @@ impl<const N: usize> Encoders<N> {
     /// Believes `q`, of whose motion nothing is known.
     fn start(&mut self, q: SVector<f64, N>) {
         self.told = None;
-        self.follow(q, 1);
+        self.follow(q, 1.0);
     }
 
-    /// Whether the robot cannot have come from where it was told to be to `q` in this many ticks: faster than it can, and
+    /// Whether the robot can be at `q` within a sample of where the law was last told that it is.
+    pub fn is_near(&self, q: &SVector<f64, N>) -> bool {
+        let told = self.told.filter(|_| self.doubt.is_none());
+        q.iter().all(|q| q.is_finite()) && told.is_some_and(|told| !self.is_far(&told, q, 1.0))
+    }
+
+    /// The last motion's part of the one in `after` sample periods, if it goes on alike.
+    fn ahead(&self, after: Real) -> f64 {
+        f64::from(after / at_least_one(self.ticks))
+    }
+
+    /// Whether the robot cannot have come from where it was told to be to `q` in this many sample periods: faster than it can, and
     /// not as it has moved.
     #[inline]
-    fn jumps(&self, from: Option<&SVector<f64, N>>, q: &SVector<f64, N>, after: u32) -> bool {
+    fn jumps(&self, from: Option<&SVector<f64, N>>, q: &SVector<f64, N>, after: Real) -> bool {
         from.is_some_and(|from| self.is_far(from, q, after) && self.is_other(from, q, after))
     }
 
     /// Whether a position has moved faster than it can.
     #[inline]
-    fn is_far(&self, from: &SVector<f64, N>, q: &SVector<f64, N>, after: u32) -> bool {
-        let ticks = after as Real;
-        let is_far = |i: usize| abs((q[i] - from[i]) as Real) > ticks * self.step[i];
+    fn is_far(&self, from: &SVector<f64, N>, q: &SVector<f64, N>, after: Real) -> bool {
+        let periods = at_least_one(after);
+        let is_far = |i: usize| abs((q[i] - from[i]) as Real) > periods * self.step[i];
         (0..N).any(is_far)
     }
 
     /// Whether one that has moved faster than it can has moved otherwise than before.
     #[cold]
-    fn is_other(&self, from: &SVector<f64, N>, q: &SVector<f64, N>, after: u32) -> bool {
-        let ticks = after as Real;
+    fn is_other(&self, from: &SVector<f64, N>, q: &SVector<f64, N>, after: Real) -> bool {
+        let periods = at_least_one(after);
         (0..N).any(|i| {
             let way = q[i] - from[i];
-            let foretold = (from[i] - self.before[i]) * (f64::from(after) / f64::from(self.ticks));
-            abs(way as Real) > ticks * self.step[i]
-                && abs((way - foretold) as Real) > ticks * self.change[i]
+            let foretold = (from[i] - self.before[i]) * self.ahead(after);
+            abs(way as Real) > periods * self.step[i]
+                && abs((way - foretold) as Real) > periods * self.change[i]
         })
     }
 

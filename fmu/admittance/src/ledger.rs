@@ -43,6 +43,8 @@ pub struct Ledger<const N: usize> {
     commanded: SVector<Real, N>,
     /// the force that acts now: with a delay the one before
     pub(crate) acting: SVector<Real, N>,
+    /// since when it does, if that was within this sample
+    switched: Option<Switched<N>>,
     pub(crate) flow: Flow,
     /// how far rounding may have carried the tank below zero since it was last above
     pub(crate) rounding: Real,
@@ -56,10 +58,22 @@ pub(crate) struct Terms<const N: usize> {
     pub defined: bool,
     /// whether the tank is kept ≥ 0
     pub kept: bool,
-    /// whether a force acts one sample later
+    /// whether a force acts later than it is said
     pub delayed: bool,
+    /// by what part of a sample, in (0, 1]
+    pub lag: Real,
     pub E_0: Real,
     pub reach: SampleReach<N>,
+}
+
+/// Where, within a sample, a force began to act.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+struct Switched<const N: usize> {
+    /// The position, m, if it is known.
+    q: Option<SVector<Real, N>>,
+    /// Work of the force before it, J.
+    done: Real,
 }
 
 /// Energies of the sample that begins, J.
@@ -81,6 +95,7 @@ impl<const N: usize> Ledger<N> {
                 defined,
                 kept: defined && settings.law.row().keeps_tank,
                 delayed: settings.delayed,
+                lag: 1.0,
                 E_0: settings.E_0,
                 reach: SampleReach::new(reach, settings.T),
             },
@@ -92,6 +107,7 @@ impl<const N: usize> Ledger<N> {
             outside: false,
             commanded: SVector::zeros(),
             acting: SVector::zeros(),
+            switched: None,
             flow: Flow::default(),
             rounding: 0.0,
         }
@@ -134,11 +150,14 @@ impl<const N: usize> Ledger<N> {
         let Settlement { step, outside, .. } = settlement;
         let last = foretelling(step.as_ref(), *outside);
         let reach = &self.terms.reach;
-        let work = if self.terms.delayed {
+        if !self.terms.delayed {
+            return [0.0, reach.most_work(f, last, 1)];
+        }
+        let work = if self.is_lagging() {
+            self.terms.reach.most_by_speed(f)
+        } else {
             // Not less than 0: what a force takes from the robot in the next sample cannot pay for this one.
             real::max(0.0, reach.most_work(f, last, 2))
-        } else {
-            reach.most_work(f, last, 1)
         };
         [self.reserved(step.as_ref(), *outside), work]
     }
@@ -146,11 +165,14 @@ impl<const N: usize> Ledger<N> {
     /// Most work (J) of a force that has been said a sample ago, in the sample that begins after the motion `step` (m).
     #[inline]
     pub(crate) fn reserved(&self, step: Option<&SVector<Real, N>>, outside: bool) -> Real {
-        if self.terms.delayed {
+        if !self.terms.delayed {
+            0.0
+        } else if self.is_lagging() {
+            // The acceleration bounds the motion of whole samples only: of a part of one the speed does.
+            self.terms.lag * self.terms.reach.most_by_speed(&self.commanded)
+        } else {
             let last = foretelling(step, outside);
             self.terms.reach.most_work(&self.commanded, last, 1)
-        } else {
-            0.0
         }
     }
 
@@ -176,11 +198,88 @@ impl<const N: usize> Ledger<N> {
             };
             (self.commanded, self.flow) = (*f, flow);
         }
+        self.switched = None;
+    }
+
+    /// With a delay of this `part` of a sample, in (0, 1), in place of a whole one: [`switch`](Self::switch) then says when
+    /// a force begins to act. It has no effect without a delay.
+    pub fn lag(&mut self, part: Real) {
+        self.terms.lag = part;
+    }
+
+    /// Whether a force begins to act within a sample.
+    fn is_lagging(&self) -> bool {
+        self.terms.delayed && self.terms.lag < 1.0
+    }
+
+    /// The force that the last tick said begins to act at the position `q` (m), within the sample; `None` where that is not
+    /// known. The first call between two ticks counts.
+    pub fn switch(&mut self, q: Option<&SVector<Real, N>>) {
+        if !self.terms.defined || !self.is_lagging() || self.switched.is_some() {
+            return;
+        }
+        let done = match (q, &self.q) {
+            (Some(q), Some(last)) => self.acting.dot(&(q - last)),
+            _ => self.terms.lag * self.terms.reach.most_by_speed(&self.acting),
+        };
+        self.acting = self.commanded;
+        self.switched = Some(Switched {
+            q: q.copied(),
+            done,
+        });
+    }
+
+    /// Work (J) of the forces in the sample that ends at the position `q` (m).
+    #[inline]
+    pub(crate) fn work(&self, q: &SVector<Real, N>) -> Real {
+        match (&self.switched, &self.q) {
+            (None, Some(last)) => self.acting.dot(&(q - last)),
+            (Some(switched), _) => self.work_switched(switched, q),
+            (None, None) => self.work_unseen(),
+        }
+    }
+
+    #[cold]
+    fn work_switched(&self, switched: &Switched<N>, q: &SVector<Real, N>) -> Real {
+        let since = |from: SVector<Real, N>| switched.done + self.acting.dot(&(q - from));
+        switched.q.map_or_else(|| self.work_unseen(), since)
+    }
+
+    /// The most that it can be where nobody saw the motion, J.
+    #[cold]
+    pub(crate) fn work_unseen(&self) -> Real {
+        if !self.is_lagging() {
+            let reach = &self.terms.reach;
+            return reach.most_work(&self.acting, self.foretelling(), 1);
+        }
+        let lag = self.terms.lag;
+        match &self.switched {
+            Some(switched) => {
+                switched.done + (1.0 - lag) * self.terms.reach.most_by_speed(&self.acting)
+            }
+            None => {
+                lag * self.terms.reach.most_by_speed(&self.acting)
+                    + (1.0 - lag) * self.terms.reach.most_by_speed(&self.commanded)
+            }
+        }
+    }
+
+    /// The terms of the work up to the position `q` (m) at their sizes, J.
+    pub(crate) fn work_size(&self, q: &SVector<Real, N>) -> Real {
+        let (from, done) = match &self.switched {
+            Some(switched) => (switched.q, switched.done),
+            None => (self.q, 0.0),
+        };
+        let since = |from: SVector<Real, N>| self.acting.abs().dot(&(q - from).abs());
+        real::abs(done) + from.map_or(0.0, since)
     }
 
     /// Counts positions from a place that is further on by `by` (m).
     pub fn count_from(&mut self, by: &SVector<Real, N>) {
         self.q = self.q.map(|q| q - by);
+        if let Some(switched) = &mut self.switched {
+            switched.q = switched.q.map(|q| q - by);
+        }
     }
 
     /// The last motion (m), as far as it says anything on the next one.

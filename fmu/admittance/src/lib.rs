@@ -94,6 +94,7 @@
 //! | [`parameters`] | [`Settings`], [`Gains`], their checks and the error that names the culprit |
 //! | [`retune`] | live gain changes that do not raise the stored energy |
 //! | [`motion`] | backward difference, low pass |
+//! | [`timing`] | ticks that come late or early |
 //! | [`encoder`] | whether a sensed position can be, and what the law is told where it cannot |
 //! | [`real`] | the number: double or single precision, and its functions |
 //! | [`one_axis`] | the complete law of one axis: its parameters, inputs and outputs, as the FMU and the C library show them |
@@ -140,6 +141,7 @@ pub mod settling;
 pub mod sliding_mode;
 pub mod storage;
 pub mod tick;
+pub mod timing;
 
 pub use admittance::Admittance;
 pub use axes::{Axes, Request};

@@ -105,6 +105,8 @@ pub struct Inputs<'a, L: Coordinates<N>, const N: usize> {
     pub tau_m: &'a SVector<Real, N>,
     /// What is asked of the nominals.
     pub request: &'a L::Request,
+    /// Sample periods that have passed since the place before this one was read; 1: the tick is in time.
+    pub after: Real,
 }
 
 /// What came of a tick.
@@ -177,20 +179,23 @@ impl<L: Drivable<N>, const N: usize> Servo<L, N> {
             f_h,
             tau_m,
             request,
+            after,
         } = *inputs;
         let (law, T) = (&self.law, self.law.settings().T);
 
         // 1. Settle. The sample that ends is known now, and what its force did.
         let ledger = self.measured(tau_m);
-        let mut sensed = law.sense(place);
+        let mut sensed = law.sense(place, after);
         let mut settlement = ledger.settle(law, &mut sensed, q);
         if !law.is_engaged() {
             settlement = settlement.without_motion();
         }
         let owes = ledger.terms.kept && settlement.tank < -settlement.rounding;
-        let moved = ledger.q.map(|last| q - last);
         let mut feedback = self.feedback;
-        feedback.compare(&law.drive(), tau_m, moved.as_ref(), T);
+        if after == 1.0 {
+            let moved = ledger.q.map(|last| q - last);
+            feedback.compare(&law.drive(), tau_m, moved.as_ref(), T);
+        }
 
         // 2. Propose. The nominals feel what was measured. In debt they feel nothing, so that the human's work repays.
         let felt = if law.is_engaged() && !owes {
@@ -321,6 +326,11 @@ impl<L: Drivable<N>, const N: usize> Servo<L, N> {
             }
         }
         set_back
+    }
+
+    /// Sample period, s.
+    pub fn T(&self) -> Real {
+        self.law.settings().T
     }
 
     /// Counts positions from a place that is further on by `by` (m).

@@ -117,10 +117,7 @@ impl<const N: usize> Ledger<N> {
     /// that the force can have done, and, with a delay, at the next sample again. Where that is beyond all numbers the ledger
     /// keeps what it last knew.
     pub fn close_unseen(&self) -> Settlement<N> {
-        let most = self
-            .terms
-            .reach
-            .most_work(&self.acting, self.foretelling(), 1);
+        let most = self.work_unseen();
         let created = most - self.H - self.flow.supplied;
         if !self.terms.defined || !(self.G + created).is_finite() {
             return self.unpaid(None, false);
@@ -177,18 +174,12 @@ impl<const N: usize> Ledger<N> {
     /// ΔG, J, of the sample that ends now, with `H` (J) stored now and the position `q` (m).
     #[inline]
     fn created(&self, H: Real, q: &SVector<Real, N>) -> Real {
-        let work = match &self.q {
-            Some(last) => self.acting.dot(&(q - last)),
-            None => self.terms.reach.most_work(&self.acting, None, 1),
-        };
-        H - self.H + work - self.flow.supplied
+        H - self.H + self.work(q) - self.flow.supplied
     }
 
     /// The terms of ΔG at their sizes, J.
     fn size(&self, H: Real, q: &SVector<Real, N>) -> Real {
-        let work = self
-            .q
-            .map_or(0.0, |last| self.acting.abs().dot(&(q - last).abs()));
+        let work = self.work_size(q);
         let Flow {
             supplied,
             exchanged,

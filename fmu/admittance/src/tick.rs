@@ -25,8 +25,9 @@ pub trait Coordinates<const N: usize> {
     fn settings(&self) -> &Settings;
     /// Whether it is in the loop: since the last tick that was committed, unless it rests.
     fn is_engaged(&self) -> bool;
-    /// The law at `place`: gains on their way take over, the springs slip.
-    fn sense(&self, place: &Self::Place) -> Self::Sensed;
+    /// The law at `place`, which was read `after` sample periods after the last one: gains on their way take over, the
+    /// springs slip.
+    fn sense(&self, place: &Self::Place, after: Real) -> Self::Sensed;
     /// Energy stored then, J. 0 for alpha = 0.
     fn stored(&self, sensed: &Self::Sensed) -> Real;
     /// The springs' part of it, J.
@@ -110,6 +111,8 @@ pub struct Inputs<'a, L: Coordinates<N>, const N: usize> {
     pub authority: Real,
     /// What is asked of the nominals.
     pub request: &'a L::Request,
+    /// Sample periods that have passed since the place before this one was read; 1: the tick is in time.
+    pub after: Real,
 }
 
 /// What happened at a tick; every value is the one at t_k.
@@ -207,7 +210,7 @@ impl<L: Coordinates<N>, const N: usize> Sampled<L, N> {
         let law = &self.law;
 
         // 1. Settle. The sample that ends is known now: the tank pays for what it created.
-        let mut sensed = law.sense(inputs.place);
+        let mut sensed = law.sense(inputs.place, inputs.after);
         let mut settlement = self.ledger.settle(law, &mut sensed, inputs.q);
         if !law.is_engaged() {
             settlement = settlement.without_motion();
@@ -324,6 +327,22 @@ impl<L: Coordinates<N>, const N: usize> Sampled<L, N> {
             Flow::default(),
         );
         ended.is_outside()
+    }
+
+    /// Sample period, s.
+    pub fn T(&self) -> Real {
+        self.law.settings().T
+    }
+
+    /// A force begins to act this `part` of a sample after its tick, in (0, 1): [`acts`](Self::acts) says where. Only with a
+    /// delay.
+    pub fn lag(&mut self, part: Real) {
+        self.ledger.lag(part);
+    }
+
+    /// The force of the last tick begins to act at the actuators' positions `q` (m or rad); `None` where they are not known.
+    pub fn acts(&mut self, q: Option<&SVector<Real, N>>) {
+        self.ledger.switch(q);
     }
 
     /// Counts the actuators' positions from a place that is further on by `by` (m or rad).

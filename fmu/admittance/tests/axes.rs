@@ -171,7 +171,7 @@ fn axes_with_a_ledger_of_the_callers_own_make_the_law() {
                 own.book(&ended, Some(&q), &Vector3::zeros(), Flow::default());
             } else {
                 let tick = law.step(&q, &f_h);
-                let mut sensed = axes.sense(&q);
+                let mut sensed = axes.sense(&q, 1.0);
                 let mut ended = own.settle(&axes, &mut sensed, &q);
                 if !axes.is_engaged() {
                     ended = ended.without_motion();

@@ -1,4 +1,4 @@
-//! Two equations of the paper in matrix form, as they must read, at random states.
+//! Three equations of the paper in matrix form, as they must read, at random states.
 #![allow(non_snake_case, reason = "the paper's symbols")]
 
 use nalgebra::{Matrix3, SMatrix, Vector3};
@@ -48,6 +48,33 @@ proptest! {
         prop_assert!((left - tau_ed - missing).norm() < 1e-12 * scale);
         // Without them the equation is off by as much as they are, which is nothing small.
         prop_assert!(((left - tau_ed).norm() - missing.norm()).abs() < 1e-12 * scale);
+    }
+
+    /// eq:diff_dyn_alter, the equation before the Riccati one: eq:dif_dyn written another way,
+    /// M(dde + K_P de) + (C + D_n)(de + K_P e) = −tau_a + w. Beside what eq:dif_dyn lacks its w lacks −D_n dq.
+    #[test]
+    fn the_difference_dynamics_written_with_w_lack_the_damping_of_the_robot_s_velocity_as_well(
+        M in inertia(), M_n in inertia(), C in matrix(), C_n in matrix(), D_n in inertia(),
+        K in positive_diagonal(), K_P in positive_diagonal(),
+        q_dot in vector(), e in vector(), de in vector(), tau_h in vector(), tau_d in vector(), alpha in 0.1..2.0_f64,
+    ) {
+        let inverse = |A: Matrix3<f64>| A.try_inverse().unwrap();
+        let y = de + K_P * e;
+        let tau_a = K * y;
+        let robot = inverse(M) * (tau_a + tau_h + tau_d - C * q_dot);
+        let nominal = inverse(M_n) * (tau_h - alpha * y - (C_n + D_n) * (q_dot + de));
+        let dde = nominal - robot;
+
+        let X = M * inverse(M_n);
+        let run = q_dot + de + K_P * e;
+        let w = (M - M_n) * inverse(M_n) * (tau_h - (C_n + D_n) * run) + (C - C_n) * run - tau_d;
+        let left: Vector3<f64> = M * (dde + K_P * de) + (C + D_n) * y + tau_a;
+        let shared = M * K_P * de + X * (C_n + D_n) * K_P * e - alpha * X * y;
+        let damping = D_n * q_dot;
+
+        let scale = 1.0 + M.norm() * K_P.norm() * (1.0 + X.norm()) + K.norm() * X.norm();
+        prop_assert!((left - w - shared + damping).norm() < 1e-12 * scale);
+        prop_assert!(((left - w - shared).norm() - damping.norm()).abs() < 1e-12 * scale);
     }
 
     /// eq:riccati's left side is −2[K_P I]ᵀ D_n [K_P I], not 0: dV/dt's bound survives as an inequality.

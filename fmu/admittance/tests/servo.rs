@@ -29,6 +29,7 @@ impl OneServo {
             f_h: &f_h,
             tau_m: &tau_m,
             request,
+            after: request.after,
         };
         let accept = |command: &Command<1>, _| {
             shown = Some(Shown::from(command));

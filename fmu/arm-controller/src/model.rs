@@ -1,12 +1,13 @@
 //! What a step does.
 
 use crate::ArmController;
-use admittance::encoder::{self, Age};
+use admittance::encoder;
 use admittance::servo;
+use admittance::timing::{self, IN_TIME};
 use arm_law::arm_law::NotFinite;
 use arm_law::choices::TORQUE;
-use arm_law::{ArmInputs, ArmLaw};
-use export::{Clock, Log, Model, Refusal, Step, Ticks};
+use arm_law::{ArmInputs, ArmLaw, ArmParameters};
+use export::{Clock, Log, Model, Refusal, Sample, Sampler, Step};
 
 impl Model for ArmController {
     fn initialize(&mut self, _start_time: f64, log: &mut Log<'_>) -> Result<(), Refusal> {
@@ -18,8 +19,9 @@ impl Model for ArmController {
             .at_rest(&self.inputs, &mut self.outputs)
             .map_err(|NotFinite| self.overflow("the start"))?;
         self.arm_law = Some(arm_law);
-        self.ticks = Ticks::default();
-        self.age = Age::default();
+        self.sampler = None;
+        self.sample_period = self.parameters.T;
+        self.told = false;
         self.tick = -1;
         Ok(())
     }
@@ -36,39 +38,74 @@ impl Model for ArmController {
     }
 
     fn fits(&self, clock: &Clock) -> Result<(), Refusal> {
-        self.ticks.check(clock, self.parameters.T)
+        self.sampler.map_or(Ok(()), |sampler| sampler.check(clock))
     }
 
     fn step(&mut self, step: Step, log: &mut Log<'_>) -> Result<(), Refusal> {
+        if self.sampler.is_none() {
+            self.sampler = Some(self.first(&step, log)?);
+        }
+        let sample = self
+            .sampler
+            .as_mut()
+            .and_then(|sampler| sampler.sample(&step));
         let Some(arm_law) = &mut self.arm_law else {
             return Err(Refusal::new("a step before initialization"));
         };
-        let ticks = self.ticks.within(&step, self.parameters.T);
-        let first = ticks.start;
-        for k in ticks {
-            // The angles were read for the first tick of the step; the others see the same ones.
-            let after = self.age.at(k == first);
-            let before = self.outputs.encoder_fault;
-            let drive = self.outputs.drive_fault;
-            if let Err(NotFinite) = arm_law.tick_after(after, &self.inputs, &mut self.outputs) {
-                return Err(self.overflow(&format!("tick {k}")));
-            }
-            let fault = self.outputs.encoder_fault;
-            if ![0, before].contains(&fault) {
-                let q = self.inputs.q;
-                log.warning(format_args!("{}; q = {q:?} rad", encoder::message(fault)));
-            }
-            let fault = self.outputs.drive_fault;
-            if ![0, drive].contains(&fault) {
-                log.warning(format_args!("{}", servo::message(fault)));
-            }
-            self.tick = i32::try_from(k).unwrap_or(i32::MAX);
+        let Some(Sample { number, after }) = sample else {
+            // The outputs of the tick have reached the arm by now, where all exchange at once.
+            arm_law.acts(&self.inputs);
+            return Ok(());
+        };
+        let before = self.outputs.encoder_fault;
+        let drive = self.outputs.drive_fault;
+        if let Err(NotFinite) = arm_law.tick_after(after, &self.inputs, &mut self.outputs) {
+            return Err(self.overflow(&format!("tick {number}")));
         }
+        let fault = self.outputs.encoder_fault;
+        if ![0, before].contains(&fault) {
+            let q = self.inputs.q;
+            log.warning(format_args!("{}; q = {q:?} rad", encoder::message(fault)));
+        }
+        let fault = self.outputs.drive_fault;
+        if ![0, drive].contains(&fault) {
+            log.warning(format_args!("{}", servo::message(fault)));
+        }
+        if self.outputs.timing != IN_TIME && !self.told {
+            self.told = true;
+            log.warning(format_args!(
+                "{}",
+                timing::message(self.outputs.timing, number, after)
+            ));
+        }
+        self.tick = i32::try_from(number).unwrap_or(i32::MAX);
         Ok(())
     }
 }
 
 impl ArmController {
+    /// The samples of an experiment that begins with `step`, and a law with their period.
+    #[cold]
+    fn first(&mut self, step: &Step, log: &mut Log<'_>) -> Result<Sampler, Refusal> {
+        let T = self.parameters.T;
+        let sampler = Sampler::new(step, T);
+        let period = sampler.period();
+        if period != T {
+            let parameters = ArmParameters {
+                T: period,
+                ..self.parameters
+            };
+            let refused = |error| sampler.refused(T, error);
+            self.arm_law = Some(ArmLaw::new(&parameters).map_err(refused)?);
+            sampler.tell(T, log);
+        }
+        if let Some(arm_law) = &mut self.arm_law {
+            arm_law.lag(sampler.exchange());
+        }
+        self.sample_period = period;
+        Ok(sampler)
+    }
+
     /// Sets `gain_warning` to what any axis is advised against, and says why when it becomes another one than 0.
     fn advise(&mut self, log: &mut Log<'_>) -> Result<(), Refusal> {
         let advice = self.parameters.advice().map_err(Refusal::new)?;

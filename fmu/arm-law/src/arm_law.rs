@@ -25,7 +25,7 @@ use crate::wrench::frame::FixedFrame;
 use crate::wrench::{Conditioned, Conditioner, Wrench};
 use admittance::encoder::{Believed, Encoders, Positions};
 use admittance::origin::{self, Move};
-use admittance::{Bounds, Ledger, ParameterError, Real, Request, real};
+use admittance::{Bounds, Ledger, ParameterError, Real, Request, real, timing};
 use nalgebra::Vector3;
 
 pub use crate::handle::{HandleTick, NotFinite};
@@ -165,17 +165,17 @@ impl ArmLaw {
     /// [`NotFinite`], without supervision: law and outputs stay as they were before the tick. With supervision that is a fault
     /// with a name and no torque.
     pub fn tick(&mut self, inputs: &ArmInputs, outputs: &mut ArmOutputs) -> Result<(), NotFinite> {
-        self.tick_after(1, inputs, outputs)
+        self.tick_after(1.0, inputs, outputs)
     }
 
-    /// The same with joint angles that were read `after` ticks since the reading before them; 0: they are those of the last
-    /// tick. An importer whose communication step is not T reads them so.
+    /// The same with joint angles that were read `after` sample periods after those before them: 1 where the tick is in time.
+    /// Any number that is not negative will do; velocities are those over this time.
     ///
     /// # Errors
     /// Those of [`tick`](Self::tick).
     pub fn tick_after(
         &mut self,
-        after: u32,
+        after: Real,
         inputs: &ArmInputs,
         outputs: &mut ArmOutputs,
     ) -> Result<(), NotFinite> {
@@ -190,7 +190,7 @@ impl ArmLaw {
     #[cold]
     fn tick_driven(
         &mut self,
-        after: u32,
+        after: Real,
         inputs: &ArmInputs,
         outputs: &mut ArmOutputs,
     ) -> Result<(), NotFinite> {
@@ -211,7 +211,7 @@ impl ArmLaw {
 
     fn tick_reading(
         &mut self,
-        after: u32,
+        after: Real,
         inputs: &ArmInputs,
         outputs: &mut ArmOutputs,
     ) -> Result<(), NotFinite> {
@@ -221,15 +221,35 @@ impl ArmLaw {
             after,
         };
         if self.encoders.is_sound(&reading) {
-            self.tick_at(&reading.believed(), inputs, outputs)?;
+            self.tick_at(&reading.believed(), after, inputs, outputs)?;
             self.encoders.keep(&reading);
         } else {
             let mut encoders = self.encoders;
             let believed = encoders.read(&reading, self.counting.is_engaged(), self.law.tau());
-            self.tick_at(&believed, inputs, outputs)?;
+            self.tick_at(&believed, after, inputs, outputs)?;
             self.encoders = encoders;
         }
+        outputs.timing = timing::of(after);
         Ok(())
+    }
+
+    /// Sample period, s.
+    pub fn T(&self) -> Real {
+        self.law.T()
+    }
+
+    /// A torque begins to act this `part` of a sample after its tick, in (0, 1), in place of a whole one:
+    /// [`acts`](Self::acts) says where. Only with a delay.
+    pub fn lag(&mut self, part: Real) {
+        self.law.lag(part);
+    }
+
+    /// The torque of the last tick begins to act now, at the joint angles of the inputs.
+    pub fn acts(&mut self, inputs: &ArmInputs) {
+        let q = Vector3::from(inputs.q);
+        let is_known = inputs.encoder_valid != 0 && self.encoders.is_near(&q);
+        let q = self.counting.counted(&q);
+        self.law.acts(is_known.then_some(&q));
     }
 
     /// One tick with what is `believed` of the joint angles.
@@ -237,6 +257,7 @@ impl ArmLaw {
     fn tick_at(
         &mut self,
         believed: &Believed<3>,
+        after: Real,
         inputs: &ArmInputs,
         outputs: &mut ArmOutputs,
     ) -> Result<(), NotFinite> {
@@ -246,11 +267,11 @@ impl ArmLaw {
         if moves {
             // Seldom, and in single precision only: a tick that is refused leaves the origin where it was, too.
             let mut law = *self;
-            law.tick_believing(believed, inputs, outputs)?;
+            law.tick_believing(believed, after, inputs, outputs)?;
             *self = law;
             Ok(())
         } else {
-            self.tick_believing(believed, inputs, outputs)
+            self.tick_believing(believed, after, inputs, outputs)
         }
     }
 
@@ -258,16 +279,19 @@ impl ArmLaw {
     fn tick_believing(
         &mut self,
         believed: &Believed<3>,
+        after: Real,
         inputs: &ArmInputs,
         outputs: &mut ArmOutputs,
     ) -> Result<(), NotFinite> {
         let mut ran = Ran {
             encoder: believed.fault,
+            after,
             ..Ran::default()
         };
         let q = believed.q.map(|q| self.counted(&q, inputs)).transpose()?;
         if self.supervisor.is_some() {
             self.supervised(inputs, q.as_ref(), believed.doubted, &mut ran);
+            self.show_drift(outputs);
         } else {
             self.unsupervised(inputs, q.as_ref(), believed.doubted, &mut ran)?;
         }
@@ -344,6 +368,7 @@ impl ArmLaw {
                     hold: freedom <= 0.0,
                     damping: Vector3::repeat(damping) + of_hand,
                     speed: self.speed(freedom),
+                    after: ran.after,
                 };
                 self.law.step(pose, q, f_h, &request, outcome, nominal)?;
                 self.stiff_hand.keep(seen.as_ref());
@@ -372,21 +397,27 @@ impl ArmLaw {
         }
     }
 
-    /// What the hand does, with the pose in `ran` and joint angles `q` (rad): into `ran` in the base frame. What the
-    /// sensor's conditioning is to remember of it is returned.
+    /// The raw reading of the hand's sensor, sensor frame.
     #[inline]
-    fn sensed(&self, q: &Vector3<Real>, inputs: &ArmInputs, ran: &mut Ran) -> Made {
-        let turn = self.frame.at(&ran.pose);
+    fn wrench(&self, inputs: &ArmInputs) -> Wrench {
         let (force, torque) = if self.source == WRENCH {
             (inputs.ft_force, inputs.ft_torque)
         } else {
             (inputs.f_h, [0.0; 3])
         };
+        Wrench {
+            force: force.into(),
+            torque: torque.into(),
+        }
+    }
+
+    /// What the hand does, with the pose in `ran` and joint angles `q` (rad): into `ran` in the base frame. What the
+    /// sensor's conditioning is to remember of it is returned.
+    #[inline]
+    fn sensed(&self, q: &Vector3<Real>, inputs: &ArmInputs, ran: &mut Ran) -> Made {
+        let turn = self.frame.at(&ran.pose);
         let reading = Reading {
-            wrench: &Wrench {
-                force: force.into(),
-                torque: torque.into(),
-            },
+            wrench: &self.wrench(inputs),
             valid: inputs.ft_valid != 0,
             tare: inputs.ft_tare != 0,
         };

@@ -70,7 +70,7 @@ pub const STATE: Enumeration = Enumeration {
 #[rustfmt::skip] // a table
 pub const DIAGNOSTIC: Enumeration = Enumeration {
     name: "Diagnostic",
-    about: "Why the law does not simply run; of several reasons the one with the smallest number",
+    about: "Why the law does not simply run; of several reasons a fault, else the one with the smallest number",
     items: &[
         reason(Diagnostic::None, "the law runs or holds"),
         reason(Diagnostic::EmergencyStop, "fault: pressed"),
@@ -86,6 +86,8 @@ pub const DIAGNOSTIC: Enumeration = Enumeration {
         reason(Diagnostic::Preparing, "sensors and heartbeat not yet good for init_time"),
         reason(Diagnostic::NotEngaged, "engage is false"),
         reason(Diagnostic::EngageStuck, "engage has not risen since the controller was ready"),
+        reason(Diagnostic::ForceSteady, "warning, or fault after drift_stop_time: nobody varies the force of the hand, drift_distance"),
+        reason(Diagnostic::ToolWeight, "the same, and the force is what a wrong ft.mass leaves, ft.mass_error"),
     ],
 };
 

@@ -55,8 +55,8 @@ pub struct ArmParameters {
     /// Sample period.
     #[parameter(29, unit = SECOND, range = POSITIVE, start = 0.001)]
     pub T: Real,
-    /// Samples by which the importer's wiring delays tau_a, its first value being 0; it changes no torque, only in
-    /// which sample the ledger counts a torque's work.
+    /// Communication steps by which the importer's wiring delays tau_a, its first value being 0; in the C library samples.
+    /// It changes no torque, only from when on the ledger counts a torque's work.
     #[parameter(30, integers = 0..=1)]
     pub delay: i32,
     /// Energy with which the tank starts and above which it does not fill.

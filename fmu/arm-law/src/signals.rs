@@ -5,6 +5,7 @@ use crate::choices::{
     DIAGNOSTIC, DRIVE_FAULT, ENCODER_FAULT, FAULT, STATE, TARE_FAILURE, TARE_STATE,
 };
 use admittance::Real;
+use admittance::timing::TIMING;
 use declaration::{Rows, Start};
 
 /// What is sensed and asked for at a tick.
@@ -188,6 +189,16 @@ pub struct ArmOutputs {
     /// readings: the law goes on at its last velocity. Then there is no torque.
     #[output(137, name = "encoder.fault", items = ENCODER_FAULT, from = ["q[i]", "encoder_valid", "encoder.range[i]"])]
     pub encoder_fault: i32,
+    /// Whether the tick came in time after the one before.
+    #[output(141, items = TIMING)]
+    pub timing: i32,
+    /// Way of the nominal's handle since somebody last varied the force of the hand; 0 unless drift_distance is set, under
+    /// supervision.
+    #[output(195, unit = METRE)]
+    pub unattended: Real,
+    /// By how much the tool is heavier than ft.mass, as far as the last warning tool_weight could tell; 0 before the first.
+    #[output(196, name = "ft.mass_error", unit = KILOGRAM)]
+    pub ft_mass_error: Real,
     /// What is wrong with tau_a_measured, beside the torques that drives with the law's gains would have given: judged where
     /// one has been above a tenth of tau_max over .2 s; 0 in the torque form.
     #[output(150, name = "drive.fault", items = DRIVE_FAULT)]

@@ -128,6 +128,33 @@ impl InSpace {
         }
     }
 
+    /// Sample period, s.
+    pub fn T(&self) -> Real {
+        match self {
+            Self::Task(law) => law.T(),
+            Self::Joint(law) => law.T(),
+            Self::Servo(law) => law.T(),
+        }
+    }
+
+    /// A torque begins to act this `part` of a sample after its tick; only with a delay.
+    pub fn lag(&mut self, part: Real) {
+        match self {
+            Self::Task(law) => law.lag(part),
+            Self::Joint(law) => law.lag(part),
+            Self::Servo(_) => {} // the torque is measured as it acts
+        }
+    }
+
+    /// The torque of the last tick begins to act at the joint angles `q` (rad); `None` where they are not known.
+    pub fn acts(&mut self, q: Option<&Vector3<Real>>) {
+        match self {
+            Self::Task(law) => law.acts(q),
+            Self::Joint(law) => law.acts(q),
+            Self::Servo(_) => {}
+        }
+    }
+
     /// What the joints last got, N·m.
     pub fn tau(&self) -> &Vector3<Real> {
         match self {

@@ -87,6 +87,7 @@ impl TaskSpace {
             f_h,
             authority: request.authority(),
             request,
+            after: request.after,
         };
         let joints = AtTheHandle {
             limits: &self.limits,
@@ -141,6 +142,22 @@ impl TaskSpace {
     pub fn abandon(&mut self, pose: &Pose, shown: &mut HandleTick) {
         let outside = self.sampled.abandon();
         *shown = HandleTick::at_rest(&pose.p, outside);
+    }
+
+    /// Sample period, s.
+    pub fn T(&self) -> Real {
+        self.sampled.T()
+    }
+
+    /// A torque begins to act this `part` of a sample after its tick, in (0, 1): [`acts`](Self::acts) says where. Only with
+    /// a delay.
+    pub fn lag(&mut self, part: Real) {
+        self.sampled.lag(part);
+    }
+
+    /// The torque of the last tick begins to act at the joint angles `q` (rad); `None` where they are not known.
+    pub fn acts(&mut self, q: Option<&Vector3<Real>>) {
+        self.sampled.acts(q);
     }
 
     /// What the joints last got, N·m.

@@ -50,7 +50,7 @@ impl Run {
 
     /// One tick; the robot gets the share `s` of what is asked for.
     fn tick(&mut self, q: &Vector3<Real>, tau_h: &Vector3<Real>, s: Real) -> Tick {
-        let sensed = self.joints.sense(&Angles::new(q));
+        let sensed = self.joints.sense(&Angles::new(q), 1.0);
         let H = self.joints.stored(&sensed);
         let proposal = self
             .joints
@@ -239,9 +239,9 @@ proptest! {
         for _ in 0..50 {
             run.tick(&q, &tau_h, 1.0);
         }
-        let kept = run.joints.stored(&run.joints.sense(&Angles::new(&q)));
+        let kept = run.joints.stored(&run.joints.sense(&Angles::new(&q), 1.0));
         run.joints.tune(to).unwrap();
-        let taken_over = run.joints.stored(&run.joints.sense(&Angles::new(&q)));
+        let taken_over = run.joints.stored(&run.joints.sense(&Angles::new(&q), 1.0));
         prop_assert!(taken_over <= kept * (1.0 + 1e-14), "{kept} → {taken_over}"); // rounding
     }
 }

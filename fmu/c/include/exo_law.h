@@ -185,7 +185,7 @@ enum {
   EXO_STATE_DEBT = 7,
 };
 
-// Why the law does not simply run; of several reasons the one with the smallest number: diagnostic, first_fault.
+// Why the law does not simply run; of several reasons a fault, else the one with the smallest number: diagnostic, first_fault.
 enum {
   // the law runs or holds
   EXO_DIAGNOSTIC_NONE = 0,
@@ -215,6 +215,10 @@ enum {
   EXO_DIAGNOSTIC_NOT_ENGAGED = 12,
   // engage has not risen since the controller was ready
   EXO_DIAGNOSTIC_ENGAGE_STUCK = 13,
+  // warning, or fault after drift_stop_time: nobody varies the force of the hand, drift_distance
+  EXO_DIAGNOSTIC_FORCE_STEADY = 14,
+  // the same, and the force is what a wrong ft.mass leaves, ft.mass_error
+  EXO_DIAGNOSTIC_TOOL_WEIGHT = 15,
 };
 
 // What is wrong with the sensed positions: encoder.fault.
@@ -233,22 +237,14 @@ enum {
   EXO_ENCODER_FAULT_INVALID = 5,
 };
 
-// What the robot gets from the controller: form.
+// Whether a tick came in time: timing.
 enum {
-  // the force tau_a
-  EXO_FORM_TORQUE = 1,
-  // q_d and dq_d, for a drive that closes the loop with K and K_P itself; needs tau_a_measured
-  EXO_FORM_POSITION_SERVO = 2,
-};
-
-// What is wrong with the measured force of the drive, in the servo form: drive.fault.
-enum {
-  // nothing
-  EXO_DRIVE_FAULT_NONE = 0,
-  // tau_a_measured is not the drive's: not wired, or the drive is off or has other gains than the law
-  EXO_DRIVE_FAULT_MISSING = 1,
-  // tau_a_measured has the sign of the force on the drive, not of that on the robot
-  EXO_DRIVE_FAULT_WRONG_SIGN = 2,
+  // within a quarter of T
+  EXO_TIMING_IN_TIME = 0,
+  // by more than a quarter of T: velocities are those over the time that has passed
+  EXO_TIMING_LATE = 1,
+  // by more than a quarter of T: the motion counts for its part of a T in the velocity
+  EXO_TIMING_EARLY = 2,
 };
 
 // The law's number: double precision, or single precision in the packages and libraries named f32.
@@ -404,6 +400,16 @@ typedef struct exo_arm_supervision {
   exo_real hold_brake; // s
   // For how long limits may act before diagnostic reports it; 0 = it does not.
   exo_real saturation_time; // s
+  // Farthest that the nominal's handle moves while nobody varies the force of the hand; then it holds. 0 = any distance.
+  exo_real drift_distance; // m
+  // Change of the hand's force that shows a hand, if it comes within drift_time.
+  exo_real drift_band; // N
+  // Time within which a hand varies its force by drift_band; what takes longer is a drift.
+  exo_real drift_time; // s
+  // For how long a force that nobody varies may press on a nominal that is held for it, before a soft stop; 0 = for ever.
+  exo_real drift_stop_time; // s
+  // Largest error of ft.mass that is reckoned with: a change of force that it explains, as the tool turns, shows no hand.
+  exo_real drift_mass; // kg
 } exo_arm_supervision;
 
 // The parameters `joint.*`: what the form in joint space has of its own. The start values are about the task-space gains
@@ -479,8 +485,8 @@ typedef struct exo_arm_parameters {
   int32_t torque_limiting; // 1 scale, 2 clip
   // Sample period.
   exo_real T; // s
-  // Samples by which the importer's wiring delays tau_a, its first value being 0; it changes no torque, only in
-  // which sample the ledger counts a torque's work.
+  // Communication steps by which the importer's wiring delays tau_a, its first value being 0; in the C library samples.
+  // It changes no torque, only from when on the ledger counts a torque's work.
   int32_t delay;
   // Energy with which the tank starts and above which it does not fill.
   exo_real E_0; // J
@@ -645,9 +651,9 @@ typedef struct exo_arm_outputs {
   // State of the supervision; without it off, engaged, hold or debt, as engage and hold say and the tank allows.
   int32_t state; // 0 off, 1 init, 2 ready, 3 engaged, 4 hold, 5 soft_stop, 6 fault, 7 debt
   // Why the law does not simply run at this tick; always 0 without supervision.
-  int32_t diagnostic; // 0 none, 1 emergency_stop, 2 encoder_invalid, 3 not_finite, 4 heartbeat_lost, 5 ft_invalid, 6 energy_debt, 7 outside_bounds, 8 saturated, 9 not_acknowledged, 10 not_enabled, 11 preparing, 12 not_engaged, 13 engage_stuck
+  int32_t diagnostic; // 0 none, 1 emergency_stop, 2 encoder_invalid, 3 not_finite, 4 heartbeat_lost, 5 ft_invalid, 6 energy_debt, 7 outside_bounds, 8 saturated, 9 not_acknowledged, 10 not_enabled, 11 preparing, 12 not_engaged, 13 engage_stuck, 14 force_steady, 15 tool_weight
   // The first fault, kept until it is acknowledged; 0 if there is none.
-  int32_t first_fault; // 0 none, 1 emergency_stop, 2 encoder_invalid, 3 not_finite, 4 heartbeat_lost, 5 ft_invalid, 6 energy_debt, 7 outside_bounds, 8 saturated, 9 not_acknowledged, 10 not_enabled, 11 preparing, 12 not_engaged, 13 engage_stuck
+  int32_t first_fault; // 0 none, 1 emergency_stop, 2 encoder_invalid, 3 not_finite, 4 heartbeat_lost, 5 ft_invalid, 6 energy_debt, 7 outside_bounds, 8 saturated, 9 not_acknowledged, 10 not_enabled, 11 preparing, 12 not_engaged, 13 engage_stuck, 14 force_steady, 15 tool_weight
   // Share of its force that the law exerts; it rises from 0 when the controller engages and falls in a soft stop.
   exo_real authority;
   // Nominal mass matrix M_n(q), row by row; 0 in task space.
@@ -661,6 +667,13 @@ typedef struct exo_arm_outputs {
   // What is wrong with the joint angles of this tick. A jump, or an angle over range, is doubted for encoder.samples
   // readings: the law goes on at its last velocity. Then there is no torque.
   int32_t encoder_fault; // 0 none, 1 not_finite, 2 over_range, 3 jump, 4 stuck, 5 invalid
+  // Whether the tick came in time after the one before.
+  int32_t timing; // 0 in_time, 1 late, 2 early
+  // Way of the nominal's handle since somebody last varied the force of the hand; 0 unless drift_distance is set, under
+  // supervision.
+  exo_real unattended; // m
+  // By how much the tool is heavier than ft.mass, as far as the last warning tool_weight could tell; 0 before the first.
+  exo_real ft_mass_error; // kg
 } exo_arm_outputs;
 
 // One variable of a struct.
@@ -697,8 +710,8 @@ typedef struct exo_axis_parameters {
   exo_real tau_max; // N
   // Sample period.
   exo_real T; // s
-  // Samples by which the importer's wiring delays tau_a, its first value being 0; it changes no force, only in which
-  // sample the ledger counts a force's work.
+  // Communication steps by which the importer's wiring delays tau_a, its first value being 0; in the C library samples.
+  // It changes no force, only from when on the ledger counts a force's work.
   int32_t delay;
   // Energy with which the tank starts and above which it does not fill.
   exo_real E_0; // J
@@ -729,8 +742,6 @@ typedef struct exo_axis_parameters {
   // Readings in a row after which a jump beyond v_max or encoder.range is a fault, and after which a fault is over; 0 =
   // jumps are believed.
   int32_t encoder_samples;
-  // What the robot gets from the controller.
-  int32_t form; // 1 torque, 2 position_servo
 } exo_axis_parameters;
 
 // What is sensed and asked for at a tick.
@@ -743,14 +754,11 @@ typedef struct exo_axis_inputs {
   // = 0; while it is false tau_a is 0.
   int32_t engage; // 0 or 1
   // Whether the nominal stays where it is: the coupling then carries any load within tau_max without drift; the laws
-  // 1 to 4 only.
+  // 1 to 4 in torque form only.
   int32_t hold; // 0 or 1
   // The encoder's own word on q; if false there is no force, at once, until q is valid again, where the law engages
-  // anew; the laws 1 to 4 only.
+  // anew; the laws 1 to 4 in torque form only.
   int32_t encoder_valid; // 0 or 1
-  // Measured force of the drive on the robot, mean over the sample that ended, positive along q; the nominal feels it in
-  // the servo form, it is not used in the torque form.
-  exo_real tau_a_measured; // N
 } exo_axis_inputs;
 
 // Memory of one axis's law. Its content is the library's; it may be copied as bytes, to keep and restore a state.
@@ -781,8 +789,7 @@ typedef struct exo_axis_outputs {
   exo_real tank; // J
   // Share of the force that the energy budget left at this tick; 1 unless something is wrong.
   exo_real share;
-  // Whether tau_max leaves less than tau_demand; in the servo form, whether tau_a_measured has reached tau_max or the
-  // spring the bound at which it slips.
+  // Whether tau_max leaves less than tau_demand.
   int32_t saturated; // 0 or 1
   // Whether hold, dq_n_max or the position box kept the nominal back at this tick.
   int32_t held; // 0 or 1
@@ -792,18 +799,13 @@ typedef struct exo_axis_outputs {
   // Whether the controller was in the loop at this tick.
   int32_t engaged; // 0 or 1
   // Whether the tank is below 0: a motion beyond v_max and a_max cost more than it held; no force until it is
-  // repaid. In the servo form, where the tank follows what is measured, the drive is told to stand still until then.
+  // repaid.
   int32_t debt; // 0 or 1
   // What is wrong with q at this tick. A jump, or a position over range, is doubted for encoder.samples readings: the
-  // law goes on at its last velocity. Then there is no force. 0 but for the laws 1 to 4.
+  // law goes on at its last velocity. Then there is no force. 0 but for the laws 1 to 4 in torque form.
   int32_t encoder_fault; // 0 none, 1 not_finite, 2 over_range, 3 jump, 4 stuck, 5 invalid
-  // Position command for the sample that begins, held: the nominal's in the middle of that sample; q_n in the torque form.
-  double q_d; // m
-  // Velocity command for the sample that begins: the nominal's mean in that sample; dq_n in the torque form.
-  exo_real dq_d; // m/s
-  // What is wrong with tau_a_measured, beside the force that a drive with the law's gains would have given: judged where
-  // that has been above a tenth of tau_max over .2 s; 0 in the torque form.
-  int32_t drive_fault; // 0 none, 1 missing, 2 wrong_sign
+  // Whether the tick came in time after the one before.
+  int32_t timing; // 0 in_time, 1 late, 2 early
 } exo_axis_outputs;
 
 #ifdef __cplusplus
@@ -842,6 +844,15 @@ exo_status exo_arm_tick(struct exo_arm_state *state,
                         struct exo_arm_outputs *outputs,
                         struct exo_refusal *refusal);
 
+// The same where the caller measures time: `dt` (s) is the time from the reading of the positions at the last tick to their
+// reading at this one. A tick that is late or early then sees the velocity that there was, and `timing` says so. What else
+// becomes of it: docs/real-time.md. A `dt` that is negative or not finite is refused.
+exo_status exo_arm_tick_after(struct exo_arm_state *state,
+                              double dt,
+                              const struct exo_arm_inputs *inputs,
+                              struct exo_arm_outputs *outputs,
+                              struct exo_refusal *refusal);
+
 // Describes the variable number `i` of the structs of the arm, from 0: parameters, then inputs, then outputs.
 exo_status exo_arm_variable(size_t i, struct exo_variable *variable);
 
@@ -863,13 +874,22 @@ exo_status exo_axis_tune(struct exo_axis_state *state,
                          const struct exo_axis_parameters *parameters,
                          struct exo_refusal *refusal);
 
-// One tick, every T. Where the status is not 0, `state` stays as it was and `outputs` hold no torque: tau_a, tau_demand and
-// dq_d are 0, the others as they were; a drive so stands still at the last q_d. The robot is then the caller's: brakes, or whatever needs no law. `refusal`, which may
+// One tick, every T. Where the status is not 0, `state` stays as it was and `outputs` hold no torque: tau_a and tau_demand
+// are 0, the others as they were. The robot is then the caller's: brakes, or whatever needs no law. `refusal`, which may
 // be null, says which input was refused.
 exo_status exo_axis_tick(struct exo_axis_state *state,
                          const struct exo_axis_inputs *inputs,
                          struct exo_axis_outputs *outputs,
                          struct exo_refusal *refusal);
+
+// The same where the caller measures time: `dt` (s) is the time from the reading of the positions at the last tick to their
+// reading at this one. A tick that is late or early then sees the velocity that there was, and `timing` says so. What else
+// becomes of it: docs/real-time.md. A `dt` that is negative or not finite is refused.
+exo_status exo_axis_tick_after(struct exo_axis_state *state,
+                               double dt,
+                               const struct exo_axis_inputs *inputs,
+                               struct exo_axis_outputs *outputs,
+                               struct exo_refusal *refusal);
 
 // Describes the variable number `i` of the structs of one axis, from 0: parameters, then inputs, then outputs.
 exo_status exo_axis_variable(size_t i, struct exo_variable *variable);
@@ -900,6 +920,7 @@ exo_status exo_axis_variable(size_t i, struct exo_variable *variable);
 #define exo_arm_supervision exo_f32_arm_supervision
 #define exo_arm_tare exo_f32_arm_tare
 #define exo_arm_tick exo_f32_arm_tick
+#define exo_arm_tick_after exo_f32_arm_tick_after
 #define exo_arm_tool exo_f32_arm_tool
 #define exo_arm_tune exo_f32_arm_tune
 #define exo_arm_variable exo_f32_arm_variable
@@ -911,6 +932,7 @@ exo_status exo_axis_variable(size_t i, struct exo_variable *variable);
 #define exo_axis_parameters exo_f32_axis_parameters
 #define exo_axis_state exo_f32_axis_state
 #define exo_axis_tick exo_f32_axis_tick
+#define exo_axis_tick_after exo_f32_axis_tick_after
 #define exo_axis_tune exo_f32_axis_tune
 #define exo_axis_variable exo_f32_axis_variable
 #define exo_law_real_size exo_f32_law_real_size

@@ -85,13 +85,38 @@ pub extern "C" fn exo_axis_tick(
     outputs: *mut AxisOutputs,
     refusal: *mut Refusal,
 ) -> Status {
+    tick_after(state, None, inputs, outputs, refusal)
+}
+
+/// The same where the caller measures time: `dt` (s) is the time from the reading of the positions at the last tick to their
+/// reading at this one. A tick that is late or early then sees the velocity that there was, and `timing` says so. What else
+/// becomes of it: docs/real-time.md. A `dt` that is negative or not finite is refused.
+#[unsafe(no_mangle)]
+pub extern "C" fn exo_axis_tick_after(
+    state: *mut AxisState,
+    dt: f64,
+    inputs: *const AxisInputs,
+    outputs: *mut AxisOutputs,
+    refusal: *mut Refusal,
+) -> Status {
+    tick_after(state, Some(dt), inputs, outputs, refusal)
+}
+
+fn tick_after(
+    state: *mut AxisState,
+    dt: Option<f64>,
+    inputs: *const AxisInputs,
+    outputs: *mut AxisOutputs,
+    refusal: *mut Refusal,
+) -> Status {
     zero(outputs, &TORQUES);
     refusing(refusal, || {
         let (inputs, outputs) = (read(inputs)?, Place::at(outputs)?);
         truths(&inputs, AxisInputs::ROWS)?;
         let mut shown = AxisOutputs::default();
         with_law(state, |law| {
-            law.tick(&inputs, &mut shown)
+            let after = dt.map_or(Ok(1.0), |dt| Bad::periods(dt, law.T()))?;
+            law.tick_after(after, &inputs, &mut shown)
                 .map_err(|NotFinite| why_not_finite(&inputs))
         })?;
         outputs.write(shown);

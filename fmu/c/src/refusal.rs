@@ -76,6 +76,19 @@ impl Bad {
             })
     }
 
+    /// The measured time `dt` (s) in sample periods of `T` (s); or the time, if no clock can have measured it.
+    pub(crate) fn periods(dt: f64, T: Real) -> Result<Real, Self> {
+        if dt >= 0.0 && dt.is_finite() {
+            return Ok(dt as Real / T);
+        }
+        Err(Self {
+            name: "dt",
+            axis: 0,
+            value: dt as Real,
+            expected: Expected::Text("a finite time, not negative"),
+        })
+    }
+
     /// A law that is not offered.
     fn law(number: i32, expected: &'static str) -> Self {
         Self {

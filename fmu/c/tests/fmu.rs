@@ -214,7 +214,11 @@ fn the_arm_in_servo_form_is_the_FMUs_bit_for_bit() {
     for k in 0..8_000 {
         moved(&mut pair.fmu, k);
         let t = f64::from(k) * T;
-        let tau = [20.0 * wave(0.8 * t), 170.0 * wave(0.5 * t), -9.0 * wave(2.0 * t)];
+        let tau = [
+            20.0 * wave(0.8 * t),
+            170.0 * wave(0.5 * t),
+            -9.0 * wave(2.0 * t),
+        ];
         pair.fmu.inputs.tau_a_measured = if k < 6_000 { tau } else { [0.0; 3] };
         pair.fmu.inputs.engage = (!(3_000..3_050).contains(&k)).into();
         pair.fmu.inputs.hold = (4_000..4_400).contains(&k).into();
@@ -253,7 +257,8 @@ fn one_axis_is_the_FMUs_bit_for_bit_in_both_forms() {
             fmu.inputs.tau_a_measured = 13.0 * wave(1.3 * t);
             fmu.inputs.engage = (!(3_000..3_050).contains(&k)).into();
             fmu.inputs.hold = (4_000..4_200).contains(&k).into();
-            fmu.step(Step::at(t, 0.002), &mut Log::silent()).expect("a step");
+            fmu.step(Step::at(t, 0.002), &mut Log::silent())
+                .expect("a step");
             let (n, status) = counting::allocations(|| {
                 exo_axis_tick(&mut *state, &fmu.inputs, &mut *outputs, null_mut())
             });

@@ -57,15 +57,30 @@ impl Controller {
         }
     }
 
-    /// One tick, in the loop or out of it, with a position that was read `after` ticks since the one before; what came of it
-    /// stands in `outputs`.
+    /// A force begins to act this `part` of a sample after its tick, in place of a whole one: [`acts`](Self::acts) says where.
+    /// Only with a delay.
+    pub fn lag(&mut self, part: f64) {
+        if let Self::Law(law) = self {
+            law.lag(part);
+        }
+    }
+
+    /// The force of the last tick begins to act now, at the position of the inputs.
+    pub fn acts(&mut self, inputs: &AxisInputs) {
+        if let Self::Law(law) = self {
+            law.acts(inputs);
+        }
+    }
+
+    /// One tick, in the loop or out of it, with a position that was read `after` sample periods after the one before; what
+    /// came of it stands in `outputs`.
     ///
     /// # Errors
     /// [`NotFinite`].
     pub fn tick(
         &mut self,
         inputs: &AxisInputs,
-        after: u32,
+        after: f64,
         outputs: &mut AxisOutputs,
     ) -> Result<(), NotFinite> {
         let AxisInputs {

@@ -3,12 +3,13 @@
 use crate::TestbedController;
 use crate::controller::Controller;
 use admittance::Law;
-use admittance::encoder::{self, Age};
+use admittance::encoder;
 use admittance::one_axis::form::TORQUE;
-use admittance::one_axis::{AxisInputs, NotFinite};
+use admittance::one_axis::{AxisInputs, AxisParameters, NotFinite};
 use admittance::parameters::in_range;
 use admittance::servo;
-use export::{Clock, Log, Model, Refusal, Step, Ticks};
+use admittance::timing::{self, IN_TIME};
+use export::{Clock, Log, Model, Refusal, Sample, Sampler, Step};
 
 impl Model for TestbedController {
     fn initialize(&mut self, _start_time: f64, log: &mut Log<'_>) -> Result<(), Refusal> {
@@ -20,12 +21,13 @@ impl Model for TestbedController {
         // What is shown is a controller at rest; what begins to run knows no motion yet.
         let engage = std::mem::replace(&mut self.inputs.engage, 0);
         self.controller = Some(controller);
-        let shown = self.tick(1);
+        let shown = self.tick(1.0);
         self.inputs.engage = engage;
         shown.map_err(|NotFinite| self.overflow("the start"))?;
         self.controller = Some(controller);
-        self.ticks = Ticks::default();
-        self.age = Age::default();
+        self.sampler = None;
+        self.sample_period = self.parameters.T;
+        self.told = false;
         self.tick = -1;
         Ok(())
     }
@@ -42,39 +44,74 @@ impl Model for TestbedController {
     }
 
     fn fits(&self, clock: &Clock) -> Result<(), Refusal> {
-        self.ticks.check(clock, self.parameters.T)
+        self.sampler.map_or(Ok(()), |sampler| sampler.check(clock))
     }
 
     fn step(&mut self, step: Step, log: &mut Log<'_>) -> Result<(), Refusal> {
-        if self.controller.is_none() {
+        if self.sampler.is_none() {
+            self.sampler = Some(self.first(&step, log)?);
+        }
+        let sample = self
+            .sampler
+            .as_mut()
+            .and_then(|sampler| sampler.sample(&step));
+        let Some(controller) = &mut self.controller else {
             return Err(Refusal::new("a step before initialization"));
+        };
+        let Some(Sample { number, after }) = sample else {
+            // The outputs of the tick have reached the robot by now, where all exchange at once.
+            controller.acts(&self.inputs);
+            return Ok(());
+        };
+        let before = self.outputs.encoder_fault;
+        let drive = self.outputs.drive_fault;
+        self.tick(after)
+            .map_err(|NotFinite| self.overflow(&format!("tick {number}")))?;
+        let fault = self.outputs.encoder_fault;
+        if ![0, before].contains(&fault) {
+            let q = self.inputs.q;
+            log.warning(format_args!("{}; q = {q:?} m", encoder::message(fault)));
         }
-        let ticks = self.ticks.within(&step, self.parameters.T);
-        let first = ticks.start;
-        for k in ticks {
-            // The position was read for the first tick of the step; the others see the same one.
-            let after = self.age.at(k == first);
-            let before = self.outputs.encoder_fault;
-            let drive = self.outputs.drive_fault;
-            self.tick(after)
-                .map_err(|NotFinite| self.overflow(&format!("tick {k}")))?;
-            let fault = self.outputs.encoder_fault;
-            if ![0, before].contains(&fault) {
-                let q = self.inputs.q;
-                log.warning(format_args!("{}; q = {q:?} m", encoder::message(fault)));
-            }
-            let fault = self.outputs.drive_fault;
-            if ![0, drive].contains(&fault) {
-                log.warning(format_args!("{}", servo::message(fault)));
-            }
-            self.tick = i32::try_from(k).unwrap_or(i32::MAX);
+        let fault = self.outputs.drive_fault;
+        if ![0, drive].contains(&fault) {
+            log.warning(format_args!("{}", servo::message(fault)));
         }
+        if self.outputs.timing != IN_TIME && !self.told {
+            self.told = true;
+            log.warning(format_args!(
+                "{}",
+                timing::message(self.outputs.timing, number, after)
+            ));
+        }
+        self.tick = i32::try_from(number).unwrap_or(i32::MAX);
         Ok(())
     }
 }
 
 impl TestbedController {
-    fn tick(&mut self, after: u32) -> Result<(), NotFinite> {
+    /// The samples of an experiment that begins with `step`, and a law with their period.
+    #[cold]
+    fn first(&mut self, step: &Step, log: &mut Log<'_>) -> Result<Sampler, Refusal> {
+        let T = self.parameters.T;
+        let sampler = Sampler::new(step, T);
+        let period = sampler.period();
+        if period != T {
+            let parameters = AxisParameters {
+                T: period,
+                ..self.parameters
+            };
+            let controller = Controller::new(&parameters, &self.comparator);
+            self.controller = Some(controller.map_err(|error| sampler.refused(T, error))?);
+            sampler.tell(T, log);
+        }
+        if let Some(controller) = &mut self.controller {
+            controller.lag(sampler.exchange());
+        }
+        self.sample_period = period;
+        Ok(sampler)
+    }
+
+    fn tick(&mut self, after: f64) -> Result<(), NotFinite> {
         if let Some(controller) = &mut self.controller {
             controller.tick(&self.inputs, after, &mut self.outputs)?;
         }

@@ -1,10 +1,9 @@
 //! The variables, one row each: those of the law of one axis, and what the testbed has besides.
 
 use crate::controller::Controller;
-use admittance::encoder::Age;
 use admittance::one_axis::{AxisInputs, AxisOutputs, AxisParameters};
 use declaration::{Declare, Description, Experiment, Rows, Start, Stepping};
-use export::Ticks;
+use export::Sampler;
 use serde::{Deserialize, Serialize};
 
 /// The controller: its variables, and its state.
@@ -18,10 +17,14 @@ pub struct TestbedController {
     /// What came of the last tick.
     #[part]
     pub outputs: AxisOutputs,
-    /// Number of the tick that the outputs belong to, at startTime + tick*T; -1 before the first one; it stays
-    /// at 2147483647.
+    /// Number of the tick that the outputs belong to, due at startTime + tick*sample_period; -1 before the first one; it
+    /// stays at 2147483647.
     #[output(8, start = -1)]
     pub tick: i32,
+    /// Sample period that the law has: the whole number of communication steps that is nearest to T, as the first step has
+    /// them. T where a step divides it; the step itself where it is longer than T.
+    #[output(54, unit = SECOND, from = ["T"], start = 0.002)]
+    pub sample_period: f64,
     /// Gains that are accepted but probably not meant: 0 none, 1 K*T/M_min above 0.25, 2 M_n below M_min/10, 3 both.
     #[output(30, from = ["M_min", "M_n", "K", "T"])]
     pub gain_warning: i32,
@@ -33,8 +36,9 @@ pub struct TestbedController {
     #[part]
     pub comparator: Comparator,
 
-    pub(crate) ticks: Ticks,
-    pub(crate) age: Age,
+    pub(crate) sampler: Option<Sampler>,
+    /// whether the log has been told of a tick that did not come in time
+    pub(crate) told: bool,
     pub(crate) controller: Option<Controller>,
 }
 

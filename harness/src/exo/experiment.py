@@ -9,7 +9,7 @@ from importlib import metadata
 from pathlib import Path
 from typing import Any
 
-from exo import metrics, preflight, trial
+from exo import derived, metrics, preflight, trial
 from exo import overrides as settings
 from exo.errors import ScenarioError
 from exo.fmu import Archive, Instance
@@ -34,6 +34,8 @@ class Experiment:
     fmus: Mapping[str, Mapping[str, str]]
     #: Inputs at their start values: nothing feeds them and nothing sets them.
     unwired: tuple[str, ...] = ()
+    #: What else may be a slip, a sentence each.
+    notes: tuple[str, ...] = ()
 
     @property
     def passed(self) -> bool:
@@ -100,9 +102,10 @@ def run(
         recordings = {}
         for case in scenario.cases:
             on_case(case)
-            recordings[case.id] = simulate(plan=plans[case.id], archives=archives)
+            recordings[case.id] = derived.added(simulate(plan=plans[case.id], archives=archives), scenario.derived)
         fmus = {name: _facts(archive) for name, archive in archives.items()}
         unwired = preflight.unwired(plans, archives)
+        notes = preflight.timing(plans, archives)
     return Experiment(
         scenario=scenario,
         overrides=parsed | dict(given or {}),
@@ -111,6 +114,7 @@ def run(
         results=evaluate(scenario=scenario, recordings=recordings, plans=plans, changed=changed),
         fmus=fmus,
         unwired=tuple(unwired),
+        notes=tuple(notes),
     )
 
 

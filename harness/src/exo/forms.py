@@ -16,7 +16,8 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, kw_only=True)
 class Comparator:
-    """`natural` or `sliding_mode` on a mass with viscous friction b (N·s/m) and a hand of stiffness k_h (N/m).
+    """`natural` or `sliding_mode` on a mass with viscous friction b (N·s/m) and a hand of stiffness k_h (N/m) and
+    damping b_h (N·s/m).
 
     M_n is the desired mass: the robot's under `natural`. H (s) is the surface's time constant, `sliding_mode` only.
     """
@@ -32,6 +33,7 @@ class Comparator:
     T: float
     substep: float
     k_h: float = 0.0
+    b_h: float = 0.0
 
 
 def comparator_tick(*, loop: Comparator, state: Array, f_h: float) -> Array:
@@ -42,7 +44,7 @@ def comparator_tick(*, loop: Comparator, state: Array, f_h: float) -> Array:
     """
     q, dq, q_before, q_n, v_n, b = state
     T, K, K_P, D_n, M_n = loop.T, loop.K, loop.K_P, loop.D_n, loop.M_n
-    force = f_h - loop.k_h * q
+    force = f_h - loop.k_h * q - loop.b_h * dq
     sensed = (q - q_before) / T
     if loop.law == "natural":
         v_m = v_n + T / 2.0 * (force - D_n * sensed) / M_n

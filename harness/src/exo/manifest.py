@@ -32,6 +32,7 @@ def document(*, experiment: Experiment, folder: Path) -> dict[str, Any]:
         "overrides": dict(experiment.overrides),
         "cases": list(experiment.recordings),
         "unwired": list(experiment.unwired),
+        "notes": list(experiment.notes),
         # With every parameter, wire, profile and expectation, bases and axes written out.
         "scenario": experiment.scenario.model_dump(mode="json", exclude_defaults=True),
         "files": [

@@ -10,12 +10,13 @@ import pyarrow as pa
 from matplotlib import rcsetup
 from matplotlib.figure import Figure as Canvas
 
-from exo import poses, theory
+from exo import handfigures, poses, theory
 from exo.errors import ScenarioError
 from exo.looks import BLACK, BLUE, CYCLE, MARK, VERMILLION, Look, looks
 from exo.metrics.basic import window
 from exo.metrics.loops import loop_of
 from exo.metrics.response import measured_response
+from exo.profile import SAME_INSTANT
 from exo.recording import Recording
 from exo.scenario import Bands, Figure, Panel
 
@@ -60,6 +61,10 @@ def draw(*, figure: Figure, recordings: Mapping[str, Recording], path: Path) -> 
         canvas = Canvas(layout="constrained")
         if figure.kind == "frequency_response":
             _frequency_response(canvas, recordings)
+        elif figure.kind == "impedance":
+            handfigures.draw_impedance(canvas, recordings)
+        elif figure.kind == "hand_limits":
+            handfigures.draw_limits(canvas, recordings)
         elif figure.poses:
             poses.draw(canvas=canvas, poses=figure.poses, run=recordings[figure.poses.case])
         else:
@@ -183,18 +188,31 @@ def data(*, figure: Figure, recordings: Mapping[str, Recording]) -> pa.Table:
     """The figure's numbers, one column a curve, labelled as in the figure."""
     if figure.kind == "frequency_response":
         return pa.table(response_table(recordings))
+    if figure.kind == "impedance":
+        return pa.table(handfigures.impedance_table(recordings))
+    if figure.kind == "hand_limits":
+        return pa.table(handfigures.limits_table(recordings))
     if figure.poses:
         return pa.table(poses.table(poses=figure.poses, run=recordings[figure.poses.case]))
-    table: dict[str, Any] = {}
+    runs = {curve.case: recordings[curve.case] for panel in figure.panels for curve in panel.curves}
+    lengths = {round(len(run.time) * run.step / SAME_INSTANT) for run in runs.values()}
+    if len(lengths) > 1:
+        raise ScenarioError(f"figure {figure.id}: its curves must have one duration")
+    # Cases with other steps have other instants: a curve is empty where it has none.
+    instants = {case: np.round(run.time / SAME_INSTANT).astype(np.int64) for case, run in runs.items()}
+    every = np.unique(np.concatenate(list(instants.values())))
+    finest = max(runs.values(), key=lambda run: len(run.time))
+    table: dict[str, Any] = {figure.x_label: finest.time if len(every) == len(finest.time) else every * SAME_INSTANT}
     for panel in figure.panels:
         for curve in panel.curves:
-            run = recordings[curve.case]
-            if table and len(table[figure.x_label]) != len(run.time):
-                raise ScenarioError(f"figure {figure.id}: its curves must have one duration")
-            table[figure.x_label] = run.time
+            run = runs[curve.case]
             name = ", ".join(part for part in (panel.title, curve.label or curve.column) if part)
             unit = run.units.get(curve.column, "")
-            table[f"{name} [{printed(unit)}]"] = run[curve.column]
+            column = run[curve.column]
+            if len(run.time) < len(every):
+                column = np.full(len(every), np.nan)
+                column[np.searchsorted(every, instants[curve.case])] = run[curve.column]
+            table[f"{name} [{printed(unit)}]"] = column
     return pa.table(table)
 
 

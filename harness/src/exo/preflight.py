@@ -9,12 +9,12 @@ import re
 from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
-from exo import metrics
+from exo import derived, metrics
 from exo.errors import FmuError, ScenarioError, close_matches
 from exo.fmu import Archive
 from exo.paper import lookup
 from exo.profile import SAME_INSTANT
-from exo.scenario import PROFILE, Metric, Scenario
+from exo.scenario import DERIVED, PROFILE, Metric, Scenario
 from exo.simulate import Plan
 
 #: By how much a ratio of two times may miss a whole number.
@@ -51,27 +51,27 @@ def check(
         of = {name: archives[archive] for name, archive in plan.components.items()}
         _parameters(plan, of, owner)
         _wires(plan, of, owner)
-        _sample_period(plan, of, owner)
     _memory(scenario, plans, archives)
+    computed = derived.columns(scenario.derived, owner=scenario.id)
     for metric in scenario.metrics:
         for case in metric.cases or tuple(plans):
             of = {name: archives[archive] for name, archive in plans[case].components.items()}
             owner = f"{scenario.id}: metric {metric.id}: case {case}"
             for name in _texts(metric.arguments.values()):
-                if name.split(".", 1)[0] in of and "." in name:
-                    _recorded(name, plans[case], of, owner)
+                if name.split(".", 1)[0] in (*of, DERIVED) and "." in name:
+                    _recorded(name, plans[case], of, computed, owner)
             if not shortened and (window := empty_window(metric, plans[case])):
                 raise ScenarioError(f"{owner}: {window}")
     for case, plan in plans.items():
         of = {name: archives[archive] for name, archive in plan.components.items()}
         for name in scenario.signals:
-            _recorded(name, plan, of, f"{scenario.id}: signals: case {case}")
+            _recorded(name, plan, of, computed, f"{scenario.id}: signals: case {case}")
     for figure in scenario.figures:
         drawn = [(one.case, one.column) for panel in figure.panels for one in panel.curves]
         drawn += [(one.bands.case, one.bands.column) for one in figure.panels if one.bands]
         for case, name in drawn:
             of = {component: archives[archive] for component, archive in plans[case].components.items()}
-            _recorded(name, plans[case], of, f"{scenario.id}: figure {figure.id}: case {case}")
+            _recorded(name, plans[case], of, computed, f"{scenario.id}: figure {figure.id}: case {case}")
 
 
 def empty_window(metric: Metric, plan: Plan) -> str:
@@ -89,6 +89,23 @@ def empty_window(metric: Metric, plan: Plan) -> str:
         if key in given and float(given[key]) > plan.duration:
             return f"{key} = {given[key]} s lies behind the end of the run, {plan.duration:g} s"
     return ""
+
+
+def timing(plans: Mapping[str, Plan], archives: Mapping[str, Archive]) -> list[str]:
+    """Steps and sample periods that do not fit. A sampled FMU has its period as parameter T; it reads its inputs at
+    communication points, so that its ticks fall on them only when the step divides T."""
+    notes: dict[str, None] = {}
+    for plan in plans.values():
+        for component, archive in plan.components.items():
+            variable = archives[archive].variables.get("T")
+            if variable is None or variable.causality != "parameter" or variable.unit != "s":
+                continue
+            T = float(plan.parameters.get(f"{component}.T", variable.start or 0.0))
+            if T > 0.0 and abs(T / plan.step - max(1.0, round(T / plan.step))) > WHOLE * T / plan.step:
+                told = "sample_period" in archives[archive].names("output")
+                what = f"{component}.sample_period is what it makes of it" if told else "it ticks between steps"
+                notes[f"the step {plan.step:g} s does not divide {component}.T = {T:g} s: {what}"] = None
+    return list(notes)
 
 
 def unwired(plans: Mapping[str, Plan], archives: Mapping[str, Archive]) -> list[str]:
@@ -142,23 +159,6 @@ def _kind(variable: Any) -> str:
     return "Integer" if variable.type == "Enumeration" else str(variable.type)
 
 
-def _sample_period(plan: Plan, of: Mapping[str, Archive], owner: str) -> None:
-    """A sampled FMU has its period as parameter T. Its ticks fall on steps when one is a multiple of the other."""
-    for component, archive in of.items():
-        variable = archive.variables.get("T")
-        if variable is None or variable.causality != "parameter" or variable.unit != "s":
-            continue
-        T = float(plan.parameters.get(f"{component}.T", variable.start or 0.0))
-        if T <= 0.0:
-            continue  # the FMU says why not
-        ratio = max(T / plan.step, plan.step / T)
-        if abs(ratio - round(ratio)) > WHOLE * ratio:
-            raise ScenarioError(
-                f"{owner}: step {plan.step:g} s and {component}.T {T:g} s do not fit: expected one to be a multiple of "
-                "the other, so that each tick falls on a step"
-            )
-
-
 def _memory(scenario: Scenario, plans: Mapping[str, Plan], archives: Mapping[str, Archive]) -> None:
     """All recordings of a scenario are in memory at once."""
     if not hasattr(os, "sysconf"):
@@ -177,8 +177,14 @@ def _memory(scenario: Scenario, plans: Mapping[str, Plan], archives: Mapping[str
         )
 
 
-def _recorded(name: str, plan: Plan, of: Mapping[str, Archive], owner: str) -> None:
+def _recorded(name: str, plan: Plan, of: Mapping[str, Archive], computed: list[str], owner: str) -> None:
     component, variable = name.split(".", 1)
+    if component == DERIVED:
+        if name not in computed:
+            raise ScenarioError(
+                f"{owner}: {name}: not among the scenario's derived signals{close_matches(name, computed)}"
+            )
+        return
     if component not in of:
         raise ScenarioError(f"{owner}: {name}: no component {component}{close_matches(component, of)}")
     if name in plan.inputs:

@@ -43,6 +43,8 @@ NotNegative = Annotated[float, Field(ge=0.0)]
 #: Component name that stands for the scenario's profiles in `inputs`. A Boolean input is true from a half on,
 #: an Integer takes the nearest one.
 PROFILE = "profile"
+#: Component name that stands for what is computed from a recording (`exo.derived`).
+DERIVED = "derived"
 #: Files and folders that lie beside the scenarios' folders.
 RESERVED = ("junit.xml", "report.html", "tune")
 #: Of one case: 1e8 steps of 1 ms are a day; all columns of a run are kept in memory.
@@ -100,6 +102,7 @@ class Case(Data):
     profiles: dict[str, tuple[Segment, ...]] = {}
     coupling: Coupling | None = None
     duration: Positive | None = None
+    step: Positive | None = None
 
 
 class Check(Data):
@@ -209,7 +212,7 @@ class Figure(Data):
 
     id: Identifier
     title: Line
-    kind: Literal["panels", "frequency_response", "arm_poses"] = "panels"
+    kind: Literal["panels", "frequency_response", "arm_poses", "impedance", "hand_limits"] = "panels"
     #: The paper's label, when it is one of its figures.
     label: Line = ""
     columns: Annotated[int, Field(ge=1)] = 1
@@ -240,7 +243,7 @@ class Scenario(Data):
     about: Text
     source: Line
     duration: Positive
-    #: Macro step = the controller's sample period (s).
+    #: Macro step, of the cases without one of their own (s): the controller's sample period.
     step: Positive
     coupling: Coupling = "zero_delay"
     #: In the order in which they step.
@@ -251,6 +254,8 @@ class Scenario(Data):
     delayed: Columns = ()
     profiles: dict[str, tuple[Segment, ...]] = {}
     cases: Annotated[tuple[Case, ...], Field(min_length=1)]
+    #: Signals that are computed from the recorded ones, see `exo.derived`.
+    derived: tuple[str, ...] = ()
     #: Columns that are stored with the results; all when empty. Metrics and figures see every column.
     signals: Columns = ()
     metrics: tuple[Metric, ...] = ()
@@ -265,14 +270,15 @@ class Scenario(Data):
         _unique("figure", [f.id for f in self.figures], folded=True)
         if self.id.casefold() in RESERVED:
             raise ValueError(f"id {self.id} is the name of a file beside the results; expected another one")
-        if PROFILE in self.components:
-            raise ValueError(f"components.{PROFILE}: this name stands for the profiles; expected another one")
+        for taken, what in ((PROFILE, "profiles"), (DERIVED, "derived signals")):
+            if taken in self.components:
+                raise ValueError(f"components.{taken}: this name stands for the {what}; expected another one")
         for case in self.cases:
             owner = f"case {case.id}"
             _known(owner, "component", (key.split(".", 1)[0] for key in case.parameters), self.components)
             _known(owner, "profile", case.profiles, self.profiles)
             self._check_wiring(owner, self.inputs | case.inputs)
-            check_duration(owner, duration=case.duration or self.duration, step=self.step)
+            check_duration(owner, duration=case.duration or self.duration, step=case.step or self.step)
         for metric in self.metrics:
             owner = f"metric {metric.id}"
             _known(owner, "case", (*(metric.cases or ()), *metric.expected, *metric.paper), cases)

@@ -135,6 +135,8 @@ def print_run(
         console.print(f"  expectations in brackets hold without {', '.join(changed)}", markup=False)
     if done.unwired and unwired:
         console.print(f"  not wired, at their start values: {', '.join(done.unwired)}", markup=False)
+    for note in done.notes if unwired else ():
+        console.print(f"  {note}", markup=False)
     pictures = [f"{figure.id}.png" for figure in done.scenario.figures]
     console.print(f"  results: {folder}{': ' if pictures else ''}{', '.join(pictures)}", markup=False)
 

@@ -62,15 +62,15 @@ def narrowed(
     for name, value in (("--duration", duration), ("--step", step)):
         if value is not None and not (math.isfinite(value) and value > 0.0):
             raise ScenarioError(f"{name} {value:g}: expected a time above 0 s")
-    wanted = step or scenario.step
     for case in kept:
         try:
             length = duration or case.duration or scenario.duration
+            wanted = step or case.step or scenario.step
             scenarios.check_duration(f"case {case.id}", duration=length, step=wanted)
         except ValueError as error:
             raise ScenarioError(f"{scenario.id}: {error}") from error
-    if duration is not None:
-        kept = [case.model_copy(update={"duration": None}) for case in kept]
+    replaced = {name: None for name, value in (("duration", duration), ("step", step)) if value is not None}
+    kept = [case.model_copy(update=replaced) for case in kept]
     ids = {case.id for case in kept}
     metrics = tuple(one for metric in scenario.metrics for one in _metric(metric, ids))
     numbers = {f"{metric.id}/{case}" for metric in metrics for case in metric.cases or ids}
@@ -79,7 +79,7 @@ def narrowed(
         update={
             "cases": tuple(kept),
             "duration": duration or scenario.duration,
-            "step": wanted,
+            "step": step or scenario.step,
             "metrics": metrics,
             "ratios": tuple(ratio for ratio in scenario.ratios if set(ratio.of) <= numbers),
             "figures": tuple(figure for figure in scenario.figures if _drawable(figure, ids, length)),

@@ -63,7 +63,7 @@ def plan(*, scenario: Scenario, case: Case, overrides: Mapping[str, Value] | Non
         profiles=scenario.profiles | case.profiles,
         coupling=case.coupling or scenario.coupling,
         duration=case.duration or scenario.duration,
-        step=scenario.step,
+        step=case.step or scenario.step,
     )
 
 

@@ -1,7 +1,6 @@
-//! Communication steps and the ticks of a sampled model inside them.
+//! Communication steps.
 
-use crate::{Clock, Refusal};
-use serde::{Deserialize, Serialize};
+use crate::Refusal;
 
 /// Share of the sample period within which a step's end and a tick count as the same instant: far above what step sizes
 /// that are no whole numbers of periods by a rounding sum up to (1e-8 periods after 1e8 steps), far below what matters.
@@ -70,85 +69,9 @@ impl Step {
     }
 }
 
-/// Integer tick counter of a sampled model: tick k happens k·T after the start time.
-///
-/// A step from t to t + h runs the ticks in [t, t + h), whatever rounding the importer's times carry: many small steps
-/// and one large step run the same ticks. A step of T runs one tick, always: up to start times of 2e9 s, for 1e8 steps,
-/// whether the importer sums its time or multiplies.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Ticks {
-    next: u64,
-}
-
-impl Ticks {
-    /// The ticks that `step` runs, with sample period `T` (s); they count as run once this returns.
-    #[allow(
-        non_snake_case,
-        reason = "T is the sample period of the paper and of the standard texts"
-    )]
-    pub fn within(&mut self, step: &Step, T: f64) -> core::ops::Range<u64> {
-        let end = ((step.elapsed + step.h - step.same_instant(T)) / T).ceil();
-        let first = self.next;
-        if end > first as f64 {
-            self.next = end as u64;
-        }
-        first..self.next
-    }
-
-    /// Refuses a counter that does not belong to the time of `clock`, with sample period `T` (s).
-    ///
-    /// # Errors
-    /// A [`Refusal`] with the count and what was expected.
-    #[allow(
-        non_snake_case,
-        reason = "T is the sample period of the paper and of the standard texts"
-    )]
-    pub fn check(&self, clock: &Clock, T: f64) -> Result<(), Refusal> {
-        clock.counted("number of ticks", self.next, T)
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn the_first_step_runs_the_tick_at_the_start_time() {
-        for h in [1e-9, 1e-5, 0.002] {
-            assert_eq!(Ticks::default().within(&Step::at(0.0, h), 0.002), 0..1);
-        }
-    }
-
-    #[test]
-    fn ticks_are_counted_on_beyond_2_to_the_31_and_32() {
-        for first in [(1_u64 << 31) - 2, (1_u64 << 32) - 2] {
-            let mut ticks = Ticks { next: first };
-            for k in first..first + 5 {
-                let step = Step {
-                    elapsed: k as f64 * 0.001,
-                    ..Step::at(0.0, 0.001)
-                };
-                assert_eq!(ticks.within(&step, 0.001), k..k + 1);
-            }
-        }
-    }
-
-    #[test]
-    fn small_and_large_steps_run_the_same_ticks() {
-        for h in [0.002 / 10.0, 0.002 / 3.0, 0.003, 0.014, 0.2] {
-            let n = (2.0_f64 / h).round() as u32;
-            let mut ticks = Ticks::default();
-            let run: Vec<_> = (0..n)
-                .map(|i| ticks.within(&Step::at(f64::from(i) * h, h), 0.002))
-                .collect();
-            assert_eq!(
-                run.last().map(|r| r.end),
-                Some((f64::from(n) * h / 0.002 - 1e-3).ceil() as u64),
-                "h = {h}"
-            );
-            assert!(run.windows(2).all(|w| w[0].end == w[1].start));
-        }
-    }
 
     #[test]
     fn substeps_are_equal_and_end_at_the_end() {

@@ -1,4 +1,5 @@
-//! The force sensor in the handle: it sees the human's force alone, in its own frame, at its own clock.
+//! The force sensor in the handle: it sees the human's force, and the weight of a tool behind it, in its own frame, at its own
+//! clock.
 
 use crate::noise::normal;
 use declaration::{Rows, Start, choices};
@@ -50,6 +51,18 @@ pub struct ForceSensor {
     /// when the force sensor fails: from the first sample on that is not earlier
     #[parameter(83, name = "ft.t_failure", unit = SECOND, range = -1e9..=1e9)]
     pub t_failure: f64,
+    /// rate at which the error of the force sensor grows from the start time on, in the frame ft.frame
+    #[parameter(190, name = "ft.drift[i]", unit = NEWTON_PER_SECOND, range = -1e6..=1e6)]
+    pub drift: [f64; 3],
+    /// largest error that the past of the force leaves, on each axis: after a push the reading stays behind by so much
+    #[parameter(191, name = "ft.hysteresis", unit = NEWTON, range = 0.0..=1e6)]
+    pub hysteresis: f64,
+    /// change of the force over which that error comes, and goes, to 1/e
+    #[parameter(192, name = "ft.hysteresis_span", unit = NEWTON, range = 1e-3..=1e6, start = 20.0)]
+    pub hysteresis_span: f64,
+    /// mass of the tool behind the force sensor, whose weight it reads; its inertia it does not; part of link 3's mass
+    #[parameter(193, name = "ft.tool_m", unit = KILOGRAM, range = 0.0..=1e3)]
+    pub tool_m: f64,
 }
 
 /// What the sensor shows.
@@ -59,6 +72,10 @@ pub struct Reading {
     pub k: u64,
     /// Its value (N).
     pub f: [f64; 3],
+    /// What acted on it (N), in the frame ft.frame.
+    pub load: [f64; 3],
+    /// By how much it stays behind (N), in that frame.
+    pub lag: [f64; 3],
 }
 
 /// `vector` of the base frame in link 3's frame: x along the link, z up when the link is level.
@@ -76,32 +93,62 @@ impl ForceSensor {
         (k > last as f64).then(|| (k as u64, (k * self.T - step.elapsed).clamp(0.0, step.h)))
     }
 
-    /// Sample `k` at `start_time` + k·T of the force `f_h` at the handle (base frame, N), after the reading `last`.
+    /// What acts on the sensor (base frame, N): the force `f_h` at the handle and the tool's weight under `gravity` (m/s²).
+    pub fn load(&self, f_h: &Vector3<f64>, gravity: &Vector3<f64>) -> Vector3<f64> {
+        if self.tool_m == 0.0 {
+            return *f_h; // and not −0 + 0, which a sum would leave
+        }
+        f_h + gravity * self.tool_m
+    }
+
+    /// Error (N) that is left when the load has changed by `change` (N), after the error `lag` (N) before it.
     ///
     /// ```text
-    /// reading = clip(R f_h + bias + noise · n_k, ±range),   n_k standard normal, R = 1 or into link 3's frame
+    /// dh/d|f| = −(h + H sgn df)/L,   H = ft.hysteresis, L = ft.hysteresis_span
+    /// ```
+    ///
+    /// Dahl's curve between −H and H, exact over a change of one sign: a rising load is read low, a falling one high. A
+    /// change far smaller than L passes almost whole.
+    fn lagging(&self, lag: f64, change: f64) -> f64 {
+        if self.hysteresis == 0.0 || change == 0.0 {
+            return lag;
+        }
+        let end = -self.hysteresis.copysign(change);
+        end + (lag - end) * libm::exp(-change.abs() / self.hysteresis_span)
+    }
+
+    /// Sample `k` at `start_time` + k·T of the `load` (base frame, N), after the reading `last`.
+    ///
+    /// ```text
+    /// reading = clip(R load + h + bias + drift k T + noise n_k, ±range),   n_k standard normal, R = 1 or into link 3's frame
     /// ```
     pub fn sample(
         &self,
         k: u64,
         start_time: f64,
-        f_h: &Vector3<f64>,
+        load: &Vector3<f64>,
         pose: &Pose,
         last: Reading,
     ) -> Reading {
-        let t = start_time + k as f64 * self.T;
-        let f = if self.frame == SENSOR {
-            in_sensor_frame(pose, f_h)
+        let age = k as f64 * self.T;
+        let t = start_time + age;
+        let load: [f64; 3] = if self.frame == SENSOR {
+            in_sensor_frame(pose, load).into()
         } else {
-            *f_h
+            (*load).into()
         };
+        let lag: [f64; 3] = core::array::from_fn(|i| {
+            let before = if k > 0 { last.load[i] } else { load[i] };
+            self.lagging(last.lag[i], load[i] - before)
+        });
         let sound: [f64; 3] = core::array::from_fn(|i| {
             let noise = if self.noise > 0.0 {
                 self.noise * normal(self.seed, k, i as u64)
             } else {
                 0.0
             };
-            (f[i] + self.bias[i] + noise).clamp(-self.range, self.range)
+            let error = lag[i] + (self.bias[i] + self.drift[i] * age);
+            (load[i] + error + noise).clamp(-self.range, self.range)
         });
         // A first sample that is stuck already shows what it sees.
         let failed = t >= self.t_failure - SAME_INSTANT * self.T;
@@ -112,6 +159,6 @@ impl ForceSensor {
             DROPOUT if failed => [0.0; 3],
             _ => sound,
         };
-        Reading { k, f }
+        Reading { k, f, load, lag }
     }
 }

@@ -27,7 +27,7 @@
 //! | `q` | q | the encoder's reading of the joint angles | [`encoder::Encoder`] |
 //! | `q_joint`, `dq` | q, dq | M ddq + C dq + g = τ + J_hᵀ f_h + J_pᵀ (f_d + f_e) + τ_f + stops | [`mechanics::arm`] |
 //! | `p`, `dp` | p, J dq | of the handle | [`mechanics::arm::kinematics`] |
-//! | `f_h_measured` | f_h + bias + noise | of the force sensor, in its frame, at its own clock | [`force_sensor::ForceSensor`] |
+//! | `f_h_measured` | f_h + tool's weight + lag + bias + drift + noise | of the force sensor, in its frame, at its own clock | [`force_sensor::ForceSensor`] |
 //! | `tau_applied` | τ | dτ/dt = 2π f (τ_a − τ), f = `drive.cutoff` | [`mechanics::arm::drive`] |
 //! | `f_e` | f_e | of table and wall on the pad, where no sensor is | [`mechanics::arm::surface`] |
 //! | `attached`, `tension` | | the payload that the vacuum holds, and its pull | [`mechanics::arm::payload`] |
@@ -43,7 +43,7 @@
 //! |---|---|
 //! | [`rows`] | the variables, one row each, with their start values |
 //! | [`encoder`] | motor-side or joint-side counts |
-//! | [`force_sensor`] | frame, bias, noise, range, failures, clock |
+//! | [`force_sensor`] | frame, tool, hysteresis, bias, drift, noise, range, failures, clock |
 //! | [`noise`] | normal numbers by a counter |
 //! | [`model`] | what initialize and step do |
 #![allow(

@@ -1,6 +1,7 @@
 //! Initialize and step.
 
 use crate::ExoskeletonArm;
+use crate::force_sensor::Reading;
 use crate::rows::{Outputs, RigidBody};
 use export::access::check_parameters;
 use export::{Clock, Log, Model, Refusal, Step};
@@ -12,6 +13,7 @@ impl Model for ExoskeletonArm {
         check_parameters(self)?;
         check_payload(&self.parameters, &self.start)?;
         self.plant = Arm::new(self.parameters, &self.start).map_err(Refusal::new)?;
+        self.reading = Reading::default();
         self.sample(0, start_time);
         self.show();
         Ok(())
@@ -73,8 +75,10 @@ impl Model for ExoskeletonArm {
 impl ExoskeletonArm {
     /// The force sensor takes sample `k`, of the force that is held and in the pose of the plant.
     fn sample(&mut self, k: u64, start_time: f64) {
-        let (f_h, pose) = (Vector3::from(self.inputs.f_h), &self.plant.place().pose);
-        self.reading = self.ft.sample(k, start_time, &f_h, pose, self.reading);
+        let gravity = Vector3::from(self.parameters.masses.gravity);
+        let load = self.ft.load(&Vector3::from(self.inputs.f_h), &gravity);
+        let pose = &self.plant.place().pose;
+        self.reading = self.ft.sample(k, start_time, &load, pose, self.reading);
     }
 
     /// Outputs from the plant's state and the sensors.

@@ -144,4 +144,6 @@ const READING: &[&str] = &[
     "ft.range",
     "ft.failure",
     "ft.t_failure",
+    "ft.tool_m",
+    "gravity[i]",
 ];

@@ -2,13 +2,13 @@
 
 mod arm;
 
-use arm::{run, started, step};
+use arm::{run, started, started_at, step};
 use core::f64::consts::PI;
 use exoskeleton_arm::ExoskeletonArm;
 use exoskeleton_arm::encoder::{JOINT, MOTOR};
-use exoskeleton_arm::force_sensor::{DROPOUT, NAN, OVER_RANGE, SENSOR, STUCK};
+use exoskeleton_arm::force_sensor::{BASE, DROPOUT, NAN, OVER_RANGE, SENSOR, STUCK};
 use exoskeleton_arm::noise::normal;
-use export::{Clock, Model, Step};
+use export::{Clock, Log, Model, Step};
 use nalgebra::{Matrix3, Vector3};
 
 #[test]
@@ -260,6 +260,78 @@ fn a_failure_can_be_there_from_the_start() {
 }
 
 #[test]
+fn the_error_of_a_drifting_sensor_grows_with_the_time_of_its_samples() {
+    let mut arm = started_at(100.0, |arm| {
+        arm.ft.drift = [0.1, -0.2, 0.0];
+        arm.ft.bias = [0.0, 1.0, 0.0];
+        arm.ft.T = 0.01;
+    })
+    .unwrap();
+    for k in 1..=400 {
+        let mut step = Step::at(f64::from(k - 1) * 1e-3, 1e-3);
+        (step.t, step.start_time) = (step.t + 100.0, 100.0);
+        arm.step(step, &mut Log::silent()).unwrap();
+        let age = f64::from(k / 10) * 0.01;
+        let shown = arm.outputs.f_h_measured;
+        assert!((shown[0] - 0.1 * age).abs() < 1e-12, "{shown:?} at {age} s");
+        assert!((shown[1] - (1.0 - 0.2 * age)).abs() < 1e-12);
+        assert_eq!(shown[2], 0.0);
+    }
+}
+
+#[test]
+fn a_push_leaves_the_hysteresis_behind_and_a_small_change_passes() {
+    const H: f64 = 2.0;
+    const L: f64 = 20.0;
+    let mut arm = started(|arm| {
+        arm.ft.hysteresis = H;
+        arm.ft.hysteresis_span = L;
+    });
+    // Up to 80 N and back in steps of the sensor's clock; the error by its differential equation, in steps of 1 mN.
+    let up_and_down = (0..=80).chain((0..80).rev()).map(f64::from);
+    let (mut force, mut lag) = (0.0, 0.0);
+    for (k, next) in (0..).zip(up_and_down) {
+        arm.inputs.f_h[1] = next;
+        step(&mut arm, f64::from(k) * 1e-3, 1e-3);
+        for _ in 0..if next == force { 0 } else { 1000 } {
+            let by = (next - force).signum();
+            lag -= (lag + H * by) / L * 1e-3;
+        }
+        force = next;
+        let shown = arm.outputs.f_h_measured;
+        // Euler's error of first order: 1e-3/L of H.
+        assert!(
+            (shown[1] - (force + lag)).abs() < 1e-4,
+            "{shown:?} at {force} N"
+        );
+        assert_eq!((shown[0], shown[2]), (0.0, 0.0));
+    }
+    let left = arm.outputs.f_h_measured[1];
+    assert!((1.9..2.0).contains(&left), "{left} N of 2 N are left");
+    arm.inputs.f_h[1] = 0.5;
+    step(&mut arm, 0.161, 1e-3);
+    let passed = (arm.outputs.f_h_measured[1] - left) / 0.5;
+    assert!((0.75..0.85).contains(&passed), "{passed}"); // 1 − 2H/L
+}
+
+#[test]
+fn the_weight_of_a_tool_turns_with_the_sensor_and_not_in_the_base_frame() {
+    let down = Vector3::new(0.0, 0.0, -9.81 * 1.2);
+    for q in [[0.4, -1.2, 1.0], [-0.3, -0.6, 1.9]] {
+        let shown = |frame| {
+            let arm = started(|arm| {
+                arm.ft.tool_m = 1.2;
+                arm.ft.frame = frame;
+                arm.start.q = q;
+            });
+            Vector3::from(arm.outputs.f_h_measured)
+        };
+        assert!((shown(SENSOR) - link_3(q).transpose() * down).amax() < 1e-12);
+        assert!((shown(BASE) - down).amax() < 1e-12);
+    }
+}
+
+#[test]
 fn sensors_do_not_touch_the_plant() {
     let mut ideal = started(|arm| arm.inputs.f_h = [40.0, -50.0, 60.0]);
     let mut bad = started(|arm| {
@@ -270,6 +342,9 @@ fn sensors_do_not_touch_the_plant() {
         arm.ft.failure = NAN;
         arm.ft.frame = SENSOR;
         arm.ft.T = 3.3e-4;
+        arm.ft.drift = [1.0; 3];
+        arm.ft.hysteresis = 2.0;
+        arm.ft.tool_m = 3.0;
     });
     run(&mut ideal, 0, 300);
     run(&mut bad, 0, 300);

@@ -1,14 +1,15 @@
 //! The impedance hand: it pulls the handle toward where it wants to be, by what it felt a reflex ago.
 
 use crate::history::{History, Sample};
+use crate::target::Motion;
 use export::Refusal;
 use serde::{Deserialize, Serialize};
 
-/// A hand of stiffness `k_h` and damping `b_h` with a reflex delay.
+/// A hand with a stiffness `k_h` and a damping `b_h` along each axis and a reflex delay.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Hand {
-    k_h: f64,
-    b_h: f64,
+    k_h: [f64; 3],
+    b_h: [f64; 3],
     p_intended: [f64; 3],
     history: History,
 }
@@ -16,14 +17,20 @@ pub struct Hand {
 impl Default for Hand {
     /// A hand without force.
     fn default() -> Self {
-        Self::new(0.0, 0.0, 0.0, [0.0; 3], Sample::default())
+        Self::new([0.0; 3], [0.0; 3], 0.0, [0.0; 3], Sample::default())
     }
 }
 
 impl Hand {
-    /// A hand of `k_h` (N/m) and `b_h` (N·s/m) that wants to be at `p_intended` (m) and acts `delay` (s) late. Until
-    /// now it felt what `first` says.
-    pub fn new(k_h: f64, b_h: f64, delay: f64, p_intended: [f64; 3], first: Sample) -> Self {
+    /// A hand of `k_h` (N/m) and `b_h` (N·s/m) along each axis that wants to be at `p_intended` (m), or as far from it
+    /// as its target is, and acts `delay` (s) late. Until now it felt what `first` says.
+    pub fn new(
+        k_h: [f64; 3],
+        b_h: [f64; 3],
+        delay: f64,
+        p_intended: [f64; 3],
+        first: Sample,
+    ) -> Self {
         Self {
             k_h,
             b_h,
@@ -51,13 +58,22 @@ impl Hand {
         self.history.take(now);
     }
 
-    /// Force on the handle (N):
+    /// Where the hand wants to be (m), its target being displaced by `target`.
+    pub fn target(&self, target: &Motion) -> [f64; 3] {
+        core::array::from_fn(|i| self.p_intended[i] + target.p[i])
+    }
+
+    /// Force on the handle (N), the target being displaced and moving as `target` says:
     ///
     /// ```text
-    /// f_hand = k_h (p_intended − p(t − delay)) − b_h dp(t − delay)
+    /// f_hand = k_h (p_target − p(t − delay)) − b_h (dp(t − delay) − dp_target),  p_target = p_intended + target
     /// ```
-    pub fn force(&self) -> [f64; 3] {
-        let Sample { p, dp, .. } = self.history.felt();
-        core::array::from_fn(|i| self.k_h * (self.p_intended[i] - p[i]) - self.b_h * dp[i])
+    ///
+    /// The damper hangs between handle and target: a hand that moves along with its target is not slowed down by itself.
+    pub fn force(&self, target: &Motion) -> [f64; 3] {
+        let (Sample { p, dp, .. }, wanted) = (self.history.felt(), self.target(target));
+        core::array::from_fn(|i| {
+            self.k_h[i] * (wanted[i] - p[i]) - self.b_h[i] * (dp[i] - target.dp[i])
+        })
     }
 }

@@ -26,7 +26,8 @@
 //! | f_h | f_profile + f_hand | N | [`rows::Outputs::f_h`] |
 //! | f_profile | Σ A w(t) sin(2π f t + φ), Σ A w(t) | N | [`profile::force`] |
 //! | w | clip((t − t_on)/ramp) − clip((t − t_off)/ramp) | 1 | [`profile::window`] |
-//! | f_hand | k_h (p_intended − p(t − delay)) − b_h dp(t − delay), 0 from let_go on | N | [`hand::Hand::force`] |
+//! | f_hand | k_h (p_target − p(t − delay)) − b_h (dp(t − delay) − dp_target), 0 from let_go on | N | [`hand::Hand::force`] |
+//! | p_target | p_intended + a sine, a minimum jerk from point to point, or a table | m | [`target::Target::at`] |
 //!
 //! 1. [`initialize`](export::Model::initialize) shows the force at the start time, with the inputs as they are then.
 //!    p = 0 on all axes counts as not there yet, as in an importer that exchanges nothing during initialization: the hand
@@ -38,6 +39,7 @@
 //! |---|---|
 //! | [`profile`] | the plan: summed sines and constants, each in a window with ramps |
 //! | [`hand`] | the impedance hand, which acts on what it felt a reflex ago |
+//! | [`target`] | where the hand wants to be: still, a sine, from point to point |
 //! | [`history`] | what it felt: the last second of motion in a fixed amount of memory |
 //! | [`rows`] | the variables, one row each, with their start values |
 //! | [`model`] | what initialize and step do |
@@ -47,5 +49,6 @@ pub mod history;
 pub mod model;
 pub mod profile;
 pub mod rows;
+pub mod target;
 
 pub use rows::HumanOperator;

@@ -18,8 +18,13 @@ impl Model for HumanOperator {
                 "segment[{i}].t_off = {t_off} s, expected at least segment[{i}].t_on = {t_on} s"
             )));
         }
+        if let Some(refused) = self.target.refused() {
+            return Err(Refusal(refused));
+        }
         let (p_intended, first) = (self.intended(), self.felt(start_time));
-        self.hand = Hand::new(self.k_h, self.b_h, self.delay, p_intended, first);
+        let k_h = self.k_h_factor.map(|factor| factor * self.k_h);
+        let b_h = self.b_h_factor.map(|factor| factor * self.b_h);
+        self.hand = Hand::new(k_h, b_h, self.delay, p_intended, first);
         // An importer that exchanges nothing during initialization leaves p at its start value, in the shoulder.
         self.has_felt = self.inputs.p != [0.0; 3];
         self.show(start_time);
@@ -61,8 +66,9 @@ impl HumanOperator {
     /// Outputs at `t`.
     fn show(&mut self, t: f64) {
         let f_profile = profile::force(&self.segments, t);
+        let target = self.target.at(t);
         let f_hand = if t < self.let_go {
-            self.hand.force()
+            self.hand.force(&target)
         } else {
             [0.0; 3]
         };
@@ -70,6 +76,7 @@ impl HumanOperator {
             f_h: core::array::from_fn(|i| f_profile[i] + f_hand[i]),
             f_profile,
             f_hand,
+            p_target: self.hand.target(&target),
         };
     }
 }

@@ -13,7 +13,7 @@ pub const CONSTANT: i32 = 2;
 
 /// Without a ramp, a window opens and closes at the instant; an importer's time may miss that by its rounding (1e-8 s
 /// after 2e5 steps), which must not cost a whole step.
-const SAME_INSTANT: f64 = 1e-7;
+pub(crate) const SAME_INSTANT: f64 = 1e-7;
 
 /// The type of `segment[i].kind`.
 pub const KIND: Enumeration = Enumeration {

@@ -3,6 +3,7 @@
 use crate::hand::Hand;
 use crate::history::DELAY_MAX;
 use crate::profile::{SEGMENTS, Segment};
+use crate::target::Target;
 use declaration::{Declare, Description, Experiment, Rows, Start, Stepping};
 use serde::{Deserialize, Serialize};
 
@@ -14,6 +15,22 @@ macro_rules! plan {
             "segment[i].amplitude", "segment[i].frequency", "segment[i].phase" $(, $more)*
         ]
     };
+}
+
+/// What the moving target depends on, handed to `$list`, which adds what it lists.
+macro_rules! with_target {
+    ($list:ident; $($more:literal),*) => {
+        $list!(
+            $($more,)* "p_intended[i]", "intended_from_start", "target.kind", "target.amplitude[i]",
+            "target.frequency[i]", "target.phase[i]", "target.t_on", "target.t_off", "target.ramp", "target.points",
+            "target.point[i].t", "target.point[i].x", "target.point[i].y", "target.point[i].z"
+        )
+    };
+}
+
+/// A list of names.
+macro_rules! names {
+    ($($name:literal),*) => { &[$($name),*] };
 }
 
 /// The human: the variables, and what the hand felt.
@@ -29,16 +46,16 @@ pub struct HumanOperator {
     /// The plan.
     #[part(each)]
     pub segments: [Segment; SEGMENTS],
-    /// stiffness of the hand
+    /// stiffness of the hand; times k_h_factor along each axis
     #[parameter(13, unit = NEWTON_PER_METRE, range = 0.0..=1e6)]
     pub k_h: f64,
-    /// damping of the hand
+    /// damping of the hand; times b_h_factor along each axis
     #[parameter(14, unit = NEWTON_SECOND_PER_METRE, range = 0.0..=1e6)]
     pub b_h: f64,
     /// reflex delay: the hand acts on where and how fast the handle was this long ago
     #[parameter(15, unit = SECOND, range = 0.0..=DELAY_MAX)]
     pub delay: f64,
-    /// where the hand wants to be, base frame, unless intended_from_start
+    /// where the hand wants to be, base frame, unless intended_from_start; a moving target starts from here
     #[parameter(16, unit = METRE, range = -1e3..=1e3)]
     pub p_intended: [f64; 3],
     /// the hand wants to be where p is at initialization, p_intended is not used; if p is 0 on all axes then, as in an
@@ -48,6 +65,15 @@ pub struct HumanOperator {
     /// time from which on the hand holds no more and f_hand is 0; 1e9: never
     #[parameter(18, unit = SECOND, range = -1e9..=1e9, start = 1e9)]
     pub let_go: f64,
+    /// How the place where the hand wants to be moves.
+    #[part]
+    pub target: Target,
+    /// stiffness of the hand along each axis of the base frame, in units of k_h
+    #[parameter(31, range = 0.0..=1e6, start = [1.0; 3])]
+    pub k_h_factor: [f64; 3],
+    /// damping of the hand along each axis of the base frame, in units of b_h
+    #[parameter(32, range = 0.0..=1e6, start = [1.0; 3])]
+    pub b_h_factor: [f64; 3],
 
     /// State, not in the interface: the hand, built anew by each initialization.
     pub hand: Hand,
@@ -70,20 +96,23 @@ pub struct Inputs {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, Rows)]
 pub struct Outputs {
     /// force of the human on the robot at the handle, base frame: f_profile + f_hand
-    #[output(2, unit = NEWTON, from = plan!("p[i]", "dp[i]", "k_h", "b_h", "p_intended[i]", "intended_from_start", "let_go"))]
+    #[output(2, unit = NEWTON, from = with_target!(plan; "p[i]", "dp[i]", "k_h", "b_h", "k_h_factor[i]", "b_h_factor[i]", "let_go"))]
     pub f_h: [f64; 3],
     /// planned part of f_h: the sum of the segments
     #[output(3, unit = NEWTON, from = plan!())]
     pub f_profile: [f64; 3],
-    /// part of f_h by which the hand pulls: k_h (p_intended - p) - b_h dp, p and dp as they were a delay ago
-    #[output(4, unit = NEWTON, from = ["p[i]", "dp[i]", "k_h", "b_h", "p_intended[i]", "intended_from_start", "let_go"])]
+    /// part of f_h by which the hand pulls: k_h (p_target - p) - b_h (dp - dp_target), p and dp as they were a delay ago
+    #[output(4, unit = NEWTON, from = with_target!(names; "p[i]", "dp[i]", "k_h", "b_h", "k_h_factor[i]", "b_h_factor[i]", "let_go"))]
     pub f_hand: [f64; 3],
+    /// where the hand wants to be, base frame: p_intended, or where it took hold, displaced by the moving target
+    #[output(33, unit = METRE, from = with_target!(names; "p[i]"))]
+    pub p_target: [f64; 3],
 }
 
 impl Declare for HumanOperator {
     const DESCRIPTION: Description<Self> = Description {
         name: "HumanOperator",
-        about: "The human at the handle: force profiles of up to 16 segments, and an impedance hand with reflex delay",
+        about: "The human at the handle: force profiles of up to 16 segments, and an impedance hand with reflex delay and a moving target",
         stepping: Stepping::Exact,
         experiment: Experiment {
             start: 0.0,

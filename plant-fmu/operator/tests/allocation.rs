@@ -15,6 +15,8 @@ fn a_step_allocates_nothing() {
         ..HumanOperator::default()
     };
     human.segments[0].amplitude = 5.0;
+    human.target.kind = 2;
+    human.target.amplitude = [0.1; 3];
     let mut log = Log::silent();
     human.initialize(0.0, &mut log).unwrap();
     let (n, ()) = allocations(|| {

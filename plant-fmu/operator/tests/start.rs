@@ -4,6 +4,7 @@ use declaration::{Access, Causality, Declare, Variable};
 use export::{Log, Model};
 use human_operator::HumanOperator;
 use human_operator::rows::Inputs;
+use human_operator::target::{Point, SINE, TABLE};
 use std::collections::BTreeSet;
 
 fn initialized(mut human: HumanOperator) -> Result<HumanOperator, String> {
@@ -51,6 +52,37 @@ fn a_refused_parameter_is_named_with_its_value_and_what_was_expected() {
         (
             "segment[1].t_off = 2 s, expected at least segment[1].t_on = 5 s",
             |h| (h.segments[0].t_on, h.segments[0].t_off) = (5.0, 2.0),
+        ),
+        (
+            "target.kind = 5, expected an item of TargetKind: 1 still, 2 sine, 3 minimum_jerk, 4 table",
+            |h| h.target.kind = 5,
+        ),
+        (
+            "target.t_off = 6 s, expected at least target.t_on + target.ramp = 7 s",
+            |h| {
+                h.target.kind = 2;
+                (h.target.t_on, h.target.t_off, h.target.ramp) = (5.0, 6.0, 2.0);
+            },
+        ),
+        (
+            "target.points = 0, expected at least 1 for target.kind minimum_jerk or table",
+            |h| h.target.kind = 3,
+        ),
+        ("target.points = 17, expected a value from 0 to 16", |h| {
+            h.target.used = 17
+        }),
+        (
+            "target.point[2].t = 1 s, expected more than target.point[1].t = 1 s",
+            |h| {
+                (h.target.kind, h.target.used) = (4, 3);
+                for (i, t) in [1.0, 1.0, 2.0].into_iter().enumerate() {
+                    h.target.points[i].t = t;
+                }
+            },
+        ),
+        (
+            "k_h_factor[2] = -1 1, expected a value from 0 to 1000000",
+            |h| h.k_h_factor[1] = -1.0,
         ),
     ] {
         assert_eq!(refused(change), text);
@@ -131,11 +163,39 @@ fn declared_initial_dependencies_are_the_true_ones() {
         let_go: 0.03,
         ..base.clone()
     };
+    let mut to_and_fro = base.clone();
+    to_and_fro.target.kind = SINE;
+    to_and_fro.target.amplitude = [0.1; 3];
+    to_and_fro.target.phase = [0.3; 3];
+    (to_and_fro.target.t_on, to_and_fro.target.t_off) = (-0.2, -0.1);
+    to_and_fro.target.ramp = 0.05;
+    let mut opening = to_and_fro.clone();
+    (opening.target.t_on, opening.target.t_off) = (0.0, 1.0);
+    let mut closing = to_and_fro.clone();
+    (closing.target.t_on, closing.target.t_off) = (-1.0, 0.0);
+    // On the way from the second point to the third one, and to the second one, which is the last.
+    let mut on_the_way = base.clone();
+    on_the_way.target.kind = TABLE;
+    on_the_way.target.used = 3;
+    for (i, t) in [-0.5, 0.0, 0.1].into_iter().enumerate() {
+        let x = 0.1 * t;
+        on_the_way.target.points[i] = Point { t, x, y: x, z: x };
+    }
+    let mut stopping = on_the_way.clone();
+    stopping.target.used = 2;
     let rows = HumanOperator::DESCRIPTION.variables;
     for output in rows.iter().filter(|row| row.causality == Causality::Output) {
         let mut found = BTreeSet::new();
         for row in rows.iter().filter(|row| row.causality != Causality::Output) {
-            for base in [&base, &elsewhere, &letting_go] {
+            for base in [
+                &base,
+                &elsewhere,
+                &letting_go,
+                &opening,
+                &closing,
+                &on_the_way,
+                &stopping,
+            ] {
                 for i in 0..3 {
                     let mut changed = base.clone();
                     let there = change(row, i, &mut changed);
@@ -179,6 +239,11 @@ fn the_names_that_others_rely_on_are_there() {
         "segment[1].phase",
         "p_intended[3]",
         "intended_from_start",
+        "target.kind",
+        "target.amplitude[3]",
+        "target.point[16].z",
+        "k_h_factor[1]",
+        "p_target[3]",
     ] {
         assert!(names.iter().any(|n| n == name), "{name}");
     }

@@ -1,8 +1,9 @@
 //! Ticks and samples do not depend on how an importer cuts time into steps.
 //!
 //! A controller holds its inputs from tick to tick: inputs that change only every 42 periods, where the step sizes meet,
-//! must give the same outputs at the same ticks for every step size. The arm's force sensor has a clock of its own, whose
-//! sample is seen in its noise. What must have run is counted here in whole 300ths of the period.
+//! must give the same outputs at the same ticks for every step size that divides the period. A longer step is a sample of
+//! its own. The arm's force sensor has a clock of its own, whose sample is seen in its noise. What must have run is counted
+//! here in whole 300ths of the period.
 
 use abi::{Fmu, Instance, Kind, Status};
 
@@ -15,8 +16,11 @@ const PARTS: u64 = 300;
 /// Parts for which inputs are held: 42 periods, a multiple of every constant step size.
 const HELD: u64 = 42 * PARTS;
 
-/// Step sizes in parts: T/10, T/3, T, 1.5 T, 7 T.
-const SIZES: [u64; 5] = [30, 100, 300, 450, 2100];
+/// Step sizes in parts that divide the period: T/10, T/3, T.
+const DIVISORS: [u64; 3] = [30, 100, 300];
+
+/// Those that do not: 1.5 T, 7 T.
+const LONGER: [u64; 2] = [450, 2100];
 
 /// What is seen of an instance: a count, and a fingerprint of outputs in which every bit counts.
 type Shown = (i32, u64);
@@ -194,18 +198,69 @@ impl Clocked {
         assert!(sum != exact, "the sum has rounded, or nothing was tested");
     }
 
-    /// All step sizes, 2e5 steps each.
-    fn check_all(&self) {
-        let longest = SIZES.into_iter().max().unwrap_or_default();
+    /// Steps of all these sizes, 2e5 each.
+    fn check_all(&self, sizes: &[u64]) {
+        let longest = sizes.iter().max().copied().unwrap_or_default();
         let reference = self.by_the_period(0.0, STEPS * longest / PARTS);
         let still = reference.windows(2).filter(|pair| pair[0] == pair[1]);
         assert_eq!(still.count(), 0, "the outputs move with every tick");
         for summed in [false, true] {
-            for size in SIZES {
-                let sizes = std::iter::repeat_n(size, STEPS as usize);
+            for size in sizes {
+                let sizes = std::iter::repeat_n(*size, STEPS as usize);
                 self.check(&reference, sizes, summed);
             }
-            self.check(&reference, random_sizes(), summed);
+            if self.tick.is_none() {
+                self.check(&reference, random_sizes(), summed);
+            }
+        }
+    }
+
+    /// Steps longer than the period show what a controller shows that has them for its period.
+    fn check_longer(mut self) {
+        let asked = self.period;
+        for size in LONGER {
+            let period = asked * size as f64 / PARTS as f64;
+            self.settings.clear();
+            self.period = period;
+            let shown = self.by_the_period(0.0, 20_000);
+            let told = self.warnings(&vec![period; 20]);
+            let named = format!("sample_period = {period:?} s");
+            assert!(told.len() == 1 && told[0].contains(&named), "{told:?}");
+            self.settings.push((self.fmu.reference("T"), period));
+            assert!(shown == self.by_the_period(0.0, 20_000), "{size}/{PARTS}");
+        }
+    }
+
+    /// What the log is warned of in steps of these sizes (s).
+    fn warnings(&self, sizes: &[f64]) -> Vec<String> {
+        let (instance, mut t) = (self.begin(0.0), 0.0);
+        instance.messages();
+        for h in sizes {
+            self.step(&instance, t, *h);
+            t += h;
+        }
+        let messages = instance.messages().into_iter();
+        messages.map(|message| message.text).collect()
+    }
+
+    /// Whatever the step sizes, the ticks go on, at most one a step, and none that is not due.
+    fn check_random(&self) {
+        let (instance, tick) = (self.begin(0.0), self.tick.expect("a controller"));
+        let period = |instance: &Instance| instance.real(self.fmu.reference("sample_period"));
+        let (mut time, mut last) = (0, -1);
+        for size in random_sizes() {
+            self.set(&instance, time / HELD);
+            let h = self.period * size as f64 / PARTS as f64;
+            self.step(&instance, time as f64 / PARTS as f64 * self.period, h);
+            let begun = time as f64 / PARTS as f64 * self.period / period(&instance);
+            time += size;
+            let ended = time as f64 / PARTS as f64 * self.period / period(&instance);
+            let now = instance.integer(tick);
+            // The newest one that was due when the step began, or the first one in it.
+            let expected = f64::from(last + 1).max((begun + 1e-3).floor());
+            let due = expected < ended - 1e-3;
+            assert_eq!(now, if due { expected as i32 } else { last }, "{time}");
+            last = now;
         }
     }
 }
@@ -257,18 +312,46 @@ fn one_step_of_the_period_runs_one_tick_and_the_first_runs_tick_zero() {
 }
 
 #[test]
-fn any_step_size_runs_the_testbed_controller_s_ticks_that_lie_in_it() {
-    Clocked::controller("TestbedController").check_all();
+fn a_step_that_is_longer_than_the_period_is_a_sample_of_that_length() {
+    for name in ["TestbedController", "ArmController"] {
+        Clocked::controller(name).check_longer();
+    }
 }
 
 #[test]
-fn any_step_size_runs_the_arm_controller_s_ticks_that_lie_in_it() {
-    Clocked::controller("ArmController").check_all();
+fn a_tick_that_does_not_come_in_time_is_told_once() {
+    for name in ["TestbedController", "ArmController"] {
+        let one = Clocked::controller(name);
+        let period = one.period;
+        assert!(one.warnings(&[period; 20]).is_empty());
+        let sizes = [1.0, 1.0, 3.0, 1.0, 1.0, 0.5, 2.0, 1.0, 1.0].map(|share| share * period);
+        let told = one.warnings(&sizes);
+        assert_eq!(told.len(), 1, "{told:?}");
+        let named = "timing = 1 (late): tick 5 came 3.000 sample periods after the one before";
+        assert!(told[0].contains(named), "{told:?}");
+    }
+}
+
+#[test]
+fn steps_of_any_sizes_run_the_newest_tick_that_is_due_and_no_other() {
+    for name in ["TestbedController", "ArmController"] {
+        Clocked::controller(name).check_random();
+    }
+}
+
+#[test]
+fn any_part_of_the_period_runs_the_testbed_controller_s_ticks_that_lie_in_it() {
+    Clocked::controller("TestbedController").check_all(&DIVISORS);
+}
+
+#[test]
+fn any_part_of_the_period_runs_the_arm_controller_s_ticks_that_lie_in_it() {
+    Clocked::controller("ArmController").check_all(&DIVISORS);
 }
 
 #[test]
 fn any_step_size_shows_the_force_sensor_s_newest_sample() {
-    Clocked::sensor().check_all();
+    Clocked::sensor().check_all(&[&DIVISORS[..], &LONGER].concat());
 }
 
 #[test]

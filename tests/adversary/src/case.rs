@@ -95,6 +95,8 @@ pub struct Case<const N: usize> {
     pub tuning: f64,
     /// Largest damping on top, N·s/m.
     pub damping: f64,
+    /// Probability that a tick is late or early, as the law is told.
+    pub jitter: f64,
 }
 
 impl<const N: usize> Case<N> {
@@ -156,8 +158,9 @@ impl<const N: usize> Case<N> {
             rate: rate.max(SMALLEST),
             tau_max: tau_max.max(SMALLEST),
             clip: g.chance(0.3),
+            lag: 1.0,
         };
-        Self {
+        let mut case = Self {
             setup,
             seed: genes.seed(),
             motions: core::array::from_fn(|_| g.unit().powi(4)),
@@ -173,6 +176,10 @@ impl<const N: usize> Case<N> {
             events: core::array::from_fn(|_| g.or_decades(0.6, 0.0, 1e-3, 0.5)),
             tuning: g.decades(0.01, 3.0),
             damping: g.decades(1e-2, 1e4),
-        }
+            jitter: 0.0,
+        };
+        case.setup.lag = g.or_decades(0.5, 1.0, 0.03, 1.0);
+        case.jitter = g.or_decades(0.5, 0.0, 1e-2, 1.0);
+        case
     }
 }

@@ -233,6 +233,8 @@ impl<const OFF: u16> Subject<1> for Plain<OFF> {
         self.step(q.x, f_h.x, authority)
     }
 
+    fn acts(&mut self, _: &Vector1<f64>) {}
+
     fn tune(&mut self, _gains: [Gains; 1]) -> Result<(), ParameterError> {
         Ok(())
     }

@@ -80,6 +80,7 @@ impl<const N: usize> Commands<N> for Servo<Axes<N>, N> {
                     f_h,
                     tau_m,
                     request,
+                    after: request.after,
                 };
                 let accept = |told: &Command<N>, _| {
                     command = *told;
@@ -274,6 +275,9 @@ impl<C: Commands<N>, const N: usize> Subject<N> for Driven<C, N> {
             ..seen
         }
     }
+
+    /// What is measured has acted when it is known.
+    fn acts(&mut self, _q: &SVector<f64, N>) {}
 
     fn tune(&mut self, gains: [Gains; N]) -> Result<(), ParameterError> {
         self.law.tune(gains)

@@ -67,6 +67,8 @@ pub struct Setup<const N: usize> {
     pub tau_max: f64,
     /// Whether each joint is clipped by itself; the arm only.
     pub clip: bool,
+    /// The part of a sample by which a delayed force is late, in (0, 1].
+    pub lag: f64,
 }
 
 /// A law of N coordinates.
@@ -80,6 +82,8 @@ pub trait Subject<const N: usize>: Clone {
     fn home() -> SVector<f64, N>;
     /// One tick.
     fn tick(&mut self, q: &SVector<f64, N>, f_h: &SVector<f64, N>, order: &Order<N>) -> Seen<N>;
+    /// The force of the last tick begins to act at `q`, within the sample.
+    fn acts(&mut self, q: &SVector<f64, N>);
     /// Other gains.
     ///
     /// # Errors
@@ -107,6 +111,7 @@ impl<const N: usize> Subject<N> for Admittance<N> {
             .reaching(setup.reach)?
             .rated(SVector::repeat(setup.rate))?;
         law.bound(setup.bounds)?;
+        law.lag(setup.lag);
         Ok(law)
     }
 
@@ -133,6 +138,10 @@ impl<const N: usize> Subject<N> for Admittance<N> {
             debt: ledger.is_in_debt(),
             outside: tick.outside_bounds,
         }
+    }
+
+    fn acts(&mut self, q: &SVector<f64, N>) {
+        Admittance::acts(self, Some(q));
     }
 
     fn tune(&mut self, gains: [Gains; N]) -> Result<(), ParameterError> {
@@ -163,13 +172,14 @@ impl Subject<3> for Arm {
     fn build(setup: &Setup<3>) -> Result<Self, ParameterError> {
         let limits = limits(setup);
         limits.check()?;
-        let law = TaskSpace::new(
+        let mut law = TaskSpace::new(
             setup.settings,
             setup.gains,
             setup.bounds,
             setup.reach,
             limits,
         )?;
+        law.lag(setup.lag);
         Ok(Self {
             kinematics: Kinematics::default(),
             law,
@@ -203,6 +213,10 @@ impl Subject<3> for Arm {
             debt: ledger.is_in_debt(),
             outside: done.outside_bounds,
         }
+    }
+
+    fn acts(&mut self, q: &Vector3<f64>) {
+        self.law.acts(Some(q));
     }
 
     fn tune(&mut self, gains: [Gains; 3]) -> Result<(), ParameterError> {
@@ -298,6 +312,10 @@ impl Subject<3> for JointArm {
             debt: ledger.is_in_debt(),
             outside: done.outside_bounds,
         }
+    }
+
+    fn acts(&mut self, q: &Vector3<f64>) {
+        self.law.acts(Some(q));
     }
 
     fn tune(&mut self, gains: [Gains; 3]) -> Result<(), ParameterError> {

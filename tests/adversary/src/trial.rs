@@ -5,7 +5,7 @@ use crate::case::Case;
 use crate::forces::Forces;
 use crate::motions::Motions;
 use crate::random::Random;
-use crate::subject::{Order, Subject, supply};
+use crate::subject::{Order, Setup, Subject, supply};
 use crate::tuning::Tuning;
 use admittance::{Gains, Request};
 use nalgebra::SVector;
@@ -70,6 +70,30 @@ fn exchanged<const N: usize>(T: f64, gains: &[Gains; N], dq_n: &SVector<f64, N>)
     gains.iter().zip(dq_n).map(of_axis).sum()
 }
 
+/// How near to the bound a motion goes: positions round.
+const WITHIN: f64 = 1.0 - 1e-9;
+
+/// The way (m) to where the next force takes over, of the motion `step` (m) of a sample: within the largest speed before and
+/// after, as far along the force `gain` (N) that the change takes away as can be.
+fn on_the_way<const N: usize>(
+    setup: &Setup<N>,
+    step: &SVector<f64, N>,
+    gain: &SVector<f64, N>,
+) -> SVector<f64, N> {
+    let lag = setup.lag;
+    SVector::from_fn(|i, _| {
+        let most = WITHIN * setup.reach.v_max[i] * setup.settings.T;
+        let high = f64::min(lag * most, step[i] + (1.0 - lag) * most);
+        let low = f64::max(-lag * most, step[i] - (1.0 - lag) * most);
+        // A motion at the very bound leaves no choice.
+        if gain[i] > 0.0 || low > high {
+            high
+        } else {
+            low
+        }
+    })
+}
+
 /// Runs `case` for `ticks` ticks.
 ///
 /// # Panics
@@ -120,6 +144,11 @@ pub fn run<const N: usize, S: Subject<N>>(case: &Case<N>, ticks: u32) -> Outcome
             let gains = tuning.another(&setup.gains, case.tuning, &mut random);
             law.tune(gains).expect("positive gains");
         }
+        request.after = if case.jitter > 0.0 && random.chance(case.jitter) {
+            random.decades(1e-3, 20.0)
+        } else {
+            1.0
+        };
         let order = if engaged {
             Order::Run(request)
         } else {
@@ -164,13 +193,23 @@ pub fn run<const N: usize, S: Subject<N>>(case: &Case<N>, ticks: u32) -> Outcome
         }
 
         let acting = if settings.delayed { said } else { seen.tau };
-        said = seen.tau;
+        let before = std::mem::replace(&mut said, seen.tau);
         let step = motions.next(&law, &q, &acting, &f_h, &order, case, &mut random, k == 0);
         let next = q + step;
         let step = next - q; // as the law will see it
-        let work = acting.dot(&step);
+        // With a lag the force of this tick begins to act on the way, where that does most work.
+        let (work, parts) = if settings.delayed && setup.lag < 1.0 {
+            let between = q + on_the_way(setup, &step, &(before - said));
+            law.acts(&between);
+            let (first, rest) = (between - q, next - between);
+            (
+                before.dot(&first) + said.dot(&rest),
+                before.abs().dot(&first.abs()) + said.abs().dot(&rest.abs()),
+            )
+        } else {
+            (acting.dot(&step), acting.abs().dot(&step.abs()))
+        };
         let supplied = supply(setup, &gains, &f_h, &order, &seen);
-        let parts = acting.abs().dot(&step.abs());
         largest = f64::max(largest, parts.max(supplied.size));
         out.add(work - supplied.energy, parts + supplied.size);
         sum_of_sizes.add(0.0, seen.H);

@@ -33,6 +33,7 @@ fn run(delayed: bool, seed: u64) -> f64 {
         rate: f64::INFINITY,
         tau_max: 150.0,
         clip: false,
+        lag: 1.0,
     };
     let mut law = Arm::build(&setup).expect("valid parameters");
     let mut random = Random::new(seed);

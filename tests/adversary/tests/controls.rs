@@ -2,15 +2,16 @@
 //! cannot beat is said, and why.
 #![allow(non_snake_case, reason = "the paper's symbols")]
 
-use admittance::{Admittance, Bounds, Law};
+use admittance::{Admittance, Bounds, Gains, Law, ParameterError};
 use adversary::case::Case;
 use adversary::genes::Genes;
 use adversary::plain::{
     BRAKING_PAYS, EULER, FEELS_THE_DEMAND, NO_BUDGET, NO_LOOK_AHEAD, NO_RESERVE, NO_RESET,
     NO_SETTLING, NO_SLIP, Plain,
 };
-use adversary::subject::Subject;
+use adversary::subject::{Order, Seen, Setup, Subject};
 use adversary::trial::{self, Outcome};
+use nalgebra::Vector1;
 
 /// The case of a seed without commands, bounds and rates, which [`Plain`] does not know.
 fn bare(seed: u64) -> Case<1> {
@@ -18,6 +19,8 @@ fn bare(seed: u64) -> Case<1> {
     case.events = [0.0; 5];
     case.setup.bounds = [Bounds::default()];
     case.setup.rate = f64::INFINITY;
+    case.setup.lag = 1.0;
+    case.jitter = 0.0;
     case
 }
 
@@ -101,6 +104,61 @@ fn a_law_that_does_not_know_of_its_delay_is_beaten() {
     assert!(shown("no reserve", beaten::<Plain<NO_RESERVE>>(delayed)) > 30);
     assert!(shown("braking pays", beaten::<Plain<BRAKING_PAYS>>(delayed)) > 5);
     assert_eq!(shown("complete, delayed", beaten::<Plain<0>>(delayed)), 0);
+}
+
+/// A law that takes the delay for a whole sample, as it is without [`Admittance::lag`].
+#[derive(Clone, Copy, Debug)]
+struct Untold(Admittance<1>);
+
+impl Subject<1> for Untold {
+    fn build(setup: &Setup<1>) -> Result<Self, ParameterError> {
+        let whole = Setup { lag: 1.0, ..*setup };
+        <Admittance<1> as Subject<1>>::build(&whole).map(Self)
+    }
+
+    fn home() -> Vector1<f64> {
+        <Admittance<1> as Subject<1>>::home()
+    }
+
+    fn tick(&mut self, q: &Vector1<f64>, f_h: &Vector1<f64>, order: &Order<1>) -> Seen<1> {
+        Subject::tick(&mut self.0, q, f_h, order)
+    }
+
+    fn acts(&mut self, _: &Vector1<f64>) {}
+
+    fn tune(&mut self, gains: [Gains; 1]) -> Result<(), ParameterError> {
+        Subject::tune(&mut self.0, gains)
+    }
+}
+
+/// The cases in which more energy leaves the law than E_0, by the audit.
+fn gave_out<S: Subject<1>>(change: impl Fn(&mut Case<1>)) -> u32 {
+    let gives = |seed| {
+        let mut case = bare(seed);
+        case.setup.settings.E_0 = case.setup.settings.E_0.max(1e-9);
+        change(&mut case);
+        let outcome: Outcome = trial::run::<1, S>(&case, 500);
+        outcome.energy_in_roundings > 1e3
+    };
+    (0..300).map(|seed| u32::from(gives(seed))).sum()
+}
+
+#[test]
+fn a_law_that_takes_half_a_sample_of_delay_for_a_whole_one_is_beaten() {
+    let half = |case: &mut Case<1>| (case.setup.settings.delayed, case.setup.lag) = (true, 0.5);
+    let (untold, told) = (gave_out::<Untold>(half), gave_out::<Admittance<1>>(half));
+    println!("half a sample of delay: untold {untold} of 300, told {told}");
+    assert!(untold > 30, "{untold}");
+    assert_eq!(told, 0);
+    assert_eq!(shown("told", beaten::<Admittance<1>>(half)), 0);
+}
+
+/// The ledger never asks what dq is: a clock that tells the law nonsense costs no energy.
+#[test]
+fn ticks_that_are_late_or_early_do_not_beat_the_law() {
+    let unsteady = |case: &mut Case<1>| case.jitter = 0.5;
+    assert_eq!(gave_out::<Admittance<1>>(unsteady), 0);
+    assert_eq!(shown("unsteady", beaten::<Admittance<1>>(unsteady)), 0);
 }
 
 /// The budget looks at what the nominal is said to feel: if it feels something else, the look-ahead is wrong.

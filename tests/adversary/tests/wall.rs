@@ -41,6 +41,7 @@ fn testbed(M_n: f64, D_n: f64) -> Setup<1> {
         rate: f64::INFINITY,
         tau_max: f64::INFINITY,
         clip: false,
+        lag: 1.0,
     }
 }
 

@@ -88,6 +88,7 @@ impl InForm {
                     f_h: &sensed.tau_h,
                     tau_m: &sensed.tau_m,
                     request,
+                    after: request.after,
                 };
                 law.tick(&inputs, |command: &Command<1>, G| {
                     accept((&command.tick, command.q_d.x, command.dq_d.x), G)
@@ -136,6 +137,30 @@ impl InForm {
                 law.count_from(by);
                 Ok(())
             }
+        }
+    }
+
+    /// Sample period, s.
+    pub fn T(&self) -> Real {
+        match self {
+            Self::Torque(law) => law.T(),
+            Self::Servo(law) => law.T(),
+        }
+    }
+
+    /// A force begins to act this `part` of a sample after its tick; that of a drive is measured as it acts.
+    pub fn lag(&mut self, part: Real) {
+        match self {
+            Self::Torque(law) => law.lag(part),
+            Self::Servo(_) => {}
+        }
+    }
+
+    /// The force of the last tick begins to act at the position `q` (m); `None` where it is not known.
+    pub fn acts(&mut self, q: Option<&Vector1<Real>>) {
+        match self {
+            Self::Torque(law) => law.acts(q),
+            Self::Servo(_) => {}
         }
     }
 

@@ -13,7 +13,7 @@ use crate::encoder::{Believed, Encoders, Fault, Positions};
 use crate::origin::{Move, Origin};
 use crate::servo;
 use crate::tick::{Refused, Tick};
-use crate::{Bounds, ParameterError, Real, Request};
+use crate::{Bounds, ParameterError, Real, Request, timing};
 use form::{Came, InForm, Sensed};
 use nalgebra::Vector1;
 
@@ -67,17 +67,17 @@ impl OneAxis {
         inputs: &AxisInputs,
         outputs: &mut AxisOutputs,
     ) -> Result<(), NotFinite> {
-        self.tick_after(1, inputs, outputs)
+        self.tick_after(1.0, inputs, outputs)
     }
 
-    /// The same with a position that was read `after` ticks since the reading before it; 0: it is that of the last tick. An
-    /// importer whose communication step is not T reads it so.
+    /// The same with a position that was read `after` sample periods after the one before it: 1 where the tick is in time. Any
+    /// number that is not negative will do; the velocity is that over this time.
     ///
     /// # Errors
     /// Those of [`tick`](Self::tick).
     pub fn tick_after(
         &mut self,
-        after: u32,
+        after: Real,
         inputs: &AxisInputs,
         outputs: &mut AxisOutputs,
     ) -> Result<(), NotFinite> {
@@ -87,15 +87,35 @@ impl OneAxis {
             after,
         };
         if self.encoder.is_sound(&reading) {
-            self.tick_at(&reading.believed(), inputs, outputs)?;
+            self.tick_at(&reading.believed(), after, inputs, outputs)?;
             self.encoder.keep(&reading);
         } else {
             let mut encoder = self.encoder;
             let believed = encoder.read(&reading, self.counting.is_engaged(), self.law.f());
-            self.tick_at(&believed, inputs, outputs)?;
+            self.tick_at(&believed, after, inputs, outputs)?;
             self.encoder = encoder;
         }
+        outputs.timing = timing::of(after);
         Ok(())
+    }
+
+    /// Sample period, s.
+    pub fn T(&self) -> Real {
+        self.law.T()
+    }
+
+    /// A force begins to act this `part` of a sample after its tick, in (0, 1), in place of a whole one: [`acts`](Self::acts)
+    /// says where. Only with a delay.
+    pub fn lag(&mut self, part: Real) {
+        self.law.lag(part);
+    }
+
+    /// The force of the last tick begins to act now, at the position `q` (m) of the inputs.
+    pub fn acts(&mut self, inputs: &AxisInputs) {
+        let q = Vector1::new(inputs.q);
+        let is_known = inputs.encoder_valid != 0 && self.encoder.is_near(&q);
+        let q = self.counting.counted(&q);
+        self.law.acts(is_known.then_some(&q));
     }
 
     /// One tick with what is `believed` of the position.
@@ -103,6 +123,7 @@ impl OneAxis {
     fn tick_at(
         &mut self,
         believed: &Believed<1>,
+        after: Real,
         inputs: &AxisInputs,
         outputs: &mut AxisOutputs,
     ) -> Result<(), NotFinite> {
@@ -113,17 +134,18 @@ impl OneAxis {
         if moves {
             // Seldom, and in single precision only: a tick that is refused leaves the origin where it was, too.
             let mut law = *self;
-            law.tick_believing(believed, inputs, outputs)?;
+            law.tick_believing(believed, after, inputs, outputs)?;
             *self = law;
             Ok(())
         } else {
-            self.tick_believing(believed, inputs, outputs)
+            self.tick_believing(believed, after, inputs, outputs)
         }
     }
 
     fn tick_believing(
         &mut self,
         believed: &Believed<1>,
+        after: Real,
         inputs: &AxisInputs,
         outputs: &mut AxisOutputs,
     ) -> Result<(), NotFinite> {
@@ -150,6 +172,7 @@ impl OneAxis {
             Some(q) if engage => {
                 let request = Request {
                     hold: inputs.hold != 0,
+                    after,
                     ..Request::default()
                 };
                 let accept = |came: Came<'_>, G| {

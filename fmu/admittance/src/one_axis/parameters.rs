@@ -39,8 +39,8 @@ pub struct AxisParameters {
     /// Sample period.
     #[parameter(23, unit = SECOND, range = POSITIVE, start = 0.002)]
     pub T: Real,
-    /// Samples by which the importer's wiring delays tau_a, its first value being 0; it changes no force, only in which
-    /// sample the ledger counts a force's work.
+    /// Communication steps by which the importer's wiring delays tau_a, its first value being 0; in the C library samples.
+    /// It changes no force, only from when on the ledger counts a force's work.
     #[parameter(24, integers = 0..=1)]
     pub delay: i32,
     /// Energy with which the tank starts and above which it does not fill.

@@ -4,6 +4,7 @@
 use crate::Real;
 use crate::encoder::FAULT;
 use crate::servo;
+use crate::timing::TIMING;
 use declaration::{Rows, Start};
 
 /// What is sensed and asked for at a tick.
@@ -95,6 +96,9 @@ pub struct AxisOutputs {
     /// law goes on at its last velocity. Then there is no force. 0 but for the laws 1 to 4.
     #[output(48, name = "encoder.fault", items = FAULT, from = ["q", "encoder_valid", "encoder.range"])]
     pub encoder_fault: i32,
+    /// Whether the tick came in time after the one before.
+    #[output(53, items = TIMING)]
+    pub timing: i32,
     /// Position command for the sample that begins, held: the nominal's in the middle of that sample; q_n in the torque form.
     #[output(32, unit = METRE, from = ["q"])]
     pub q_d: f64,

@@ -202,7 +202,7 @@ fn a_communication_step_of_several_ticks_is_no_jump() {
             step(&mut c, k, 0.001 * f64::from(ticks));
             assert_eq!(c.outputs.encoder_fault, 0, "{ticks} ticks, step {k}");
         }
-        c.inputs.q[0] += 0.0085 * f64::from(ticks); // beyond dq_max, and 3.5 rad/s more than before
+        c.inputs.q[0] += 0.017 * f64::from(ticks); // beyond dq_max, and 12 rad/s more than before
         step(&mut c, 40, 0.001 * f64::from(ticks));
         assert_eq!(c.outputs.encoder_fault, Fault::Jump.number());
     }

@@ -116,7 +116,10 @@ fn carry(t: f64) -> f64 {
 
 fn lift(run: &Run) -> f64 {
     let before = run.z[6000..7000].iter().sum::<f64>() / 1000.0;
-    run.z[8000..].iter().fold(f64::NEG_INFINITY, |a, z| a.max(*z)) - before
+    run.z[8000..]
+        .iter()
+        .fold(f64::NEG_INFINITY, |a, z| a.max(*z))
+        - before
 }
 
 #[test]
@@ -153,14 +156,26 @@ fn drives_that_are_not_quite_the_law_let_go_of_the_table_all_the_same() {
     assert_eq!((run.fault, run.debt), (0, false));
     for part in [0.9, 1.1] {
         let drives = [
-            Drives { K: LAW.K * part, ..LAW },
-            Drives { K_P: LAW.K_P * part, ..LAW },
-            Drives { tau_max: LAW.tau_max.map(|tau| tau * part), ..LAW },
+            Drives {
+                K: LAW.K * part,
+                ..LAW
+            },
+            Drives {
+                K_P: LAW.K_P * part,
+                ..LAW
+            },
+            Drives {
+                tau_max: LAW.tau_max.map(|tau| tau * part),
+                ..LAW
+            },
         ];
         for (i, drives) in drives.into_iter().enumerate() {
             let (time, run) = leaving(Form::Servo(drives));
             println!("{i} × {part}: {time} s");
-            assert!((time - exact).abs() < 0.1 * exact, "{i} × {part}: {time} {exact}");
+            assert!(
+                (time - exact).abs() < 0.1 * exact,
+                "{i} × {part}: {time} {exact}"
+            );
             assert_eq!(run.fault, 0);
         }
     }
@@ -172,7 +187,9 @@ fn what_has_no_servo_form_is_refused_by_name() {
         let mut c = ArmController::default();
         (c.parameters.form, c.parameters.space) = (2, 2);
         change(&mut c);
-        c.initialize(0.0, &mut Log::silent()).expect_err("no form").0
+        c.initialize(0.0, &mut Log::silent())
+            .expect_err("no form")
+            .0
     };
     assert_eq!(
         refused(|c| c.parameters.space = 1),
@@ -202,7 +219,11 @@ fn what_has_no_servo_form_is_refused_by_name() {
 #[test]
 fn supervision_has_the_drives_stand_still() {
     let mut c = initialized(|c| {
-        (c.parameters.form, c.parameters.space, c.parameters.supervision) = (2, 2, 1);
+        (
+            c.parameters.form,
+            c.parameters.space,
+            c.parameters.supervision,
+        ) = (2, 2, 1);
         c.inputs.enable = 1;
         c.inputs.engage = 0;
         c.inputs.f_h = [0.0, 0.0, 5.0];
@@ -214,10 +235,17 @@ fn supervision_has_the_drives_stand_still() {
         c.step(step, &mut Log::silent()).expect("a step");
     };
     (0..2000).for_each(|k| step(&mut c, k));
-    assert_eq!((c.outputs.engaged, c.outputs.q_d, c.outputs.dq_d), (0, q, [0.0; 3]));
+    assert_eq!(
+        (c.outputs.engaged, c.outputs.q_d, c.outputs.dq_d),
+        (0, q, [0.0; 3])
+    );
     c.inputs.engage = 1;
     (2000..2500).for_each(|k| step(&mut c, k));
-    assert!(c.outputs.engaged == 1 && c.outputs.dq_d[1] > 0.0, "{:?}", c.outputs.dq_d);
+    assert!(
+        c.outputs.engaged == 1 && c.outputs.dq_d[1] > 0.0,
+        "{:?}",
+        c.outputs.dq_d
+    );
     assert_eq!(c.outputs.tau_a, [0.0; 3]);
     // A soft stop: the nominal brakes within its freedom, then stands.
     let fast = c.outputs.dq_d[1];
@@ -225,12 +253,18 @@ fn supervision_has_the_drives_stand_still() {
     step(&mut c, 2500);
     assert!(c.outputs.dq_d[1] <= fast);
     (2501..5000).for_each(|k| step(&mut c, k));
-    assert_eq!((c.outputs.engaged, c.outputs.q_d, c.outputs.dq_d), (0, q, [0.0; 3]));
+    assert_eq!(
+        (c.outputs.engaged, c.outputs.q_d, c.outputs.dq_d),
+        (0, q, [0.0; 3])
+    );
     // An emergency stop, from the loop, at once.
     c.inputs.engage = 1;
     (5000..5500).for_each(|k| step(&mut c, k));
     assert!(c.outputs.engaged == 1 && c.outputs.dq_d[1] > 0.0);
     c.inputs.emergency_stop = 1;
     step(&mut c, 5500);
-    assert_eq!((c.outputs.engaged, c.outputs.q_d, c.outputs.dq_d), (0, q, [0.0; 3]));
+    assert_eq!(
+        (c.outputs.engaged, c.outputs.q_d, c.outputs.dq_d),
+        (0, q, [0.0; 3])
+    );
 }

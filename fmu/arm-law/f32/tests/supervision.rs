@@ -70,6 +70,7 @@ fn a_run_has_the_same_states_and_the_same_authority_to_single_precision() {
             ft_valid: inputs.ft_valid,
             encoder_valid: true,
             force: 0.0,
+            felt: single::Felt::default(),
         });
         match (demand, same) {
             (double::Demand::Rest, single::Demand::Rest) => {}

@@ -2,7 +2,8 @@
 
 use super::{ArmLaw, NotFinite, Ran};
 use crate::signals::ArmInputs;
-use crate::supervision::{self, Demand, Report, Status};
+use crate::supervision::{self, Demand, Felt, Report, Status};
+use crate::wrench::TareState;
 use admittance::{Real, encoder};
 use nalgebra::Vector3;
 
@@ -61,6 +62,11 @@ impl ArmLaw {
         let q = q.map_or(self.q, |q| *q);
         self.turn(&mut ran.pose, &q);
         let made = self.sensed(&q, inputs, ran);
+        let felt = if self.watches_drift() {
+            self.felt(inputs, ran)
+        } else {
+            Felt::default()
+        };
         let demand = self.decided(&supervision::Inputs {
             enable: inputs.enable != 0,
             engage: inputs.engage != 0,
@@ -71,6 +77,7 @@ impl ArmLaw {
             ft_valid: ran.ft.fault.is_none(),
             encoder_valid: is_seen,
             force: ran.ft.hand.force.norm(),
+            felt,
         });
 
         let outcome = if demand == Demand::Rest && !is_seen {
@@ -88,6 +95,7 @@ impl ArmLaw {
                     debt: self.ledger().is_in_debt(),
                     outside_bounds: ran.outcome.outside_bounds,
                     saturated: ran.outcome.saturated,
+                    speed: ran.outcome.dp_n.norm(),
                 }
             }
             Err(NotFinite) => {
@@ -97,6 +105,30 @@ impl ArmLaw {
         };
         if let Some(supervisor) = &mut self.supervisor {
             ran.status = supervisor.judge(&report);
+        }
+    }
+
+    /// Whether supervision watches the force for a drift.
+    fn watches_drift(&self) -> bool {
+        let supervisor = self.supervisor.as_ref();
+        supervisor.is_some_and(|supervisor| supervisor.drift().is_some())
+    }
+
+    /// What is felt of the hand in the sensor's frame, with the pose and the conditioned force in `ran`.
+    #[cold]
+    fn felt(&self, inputs: &ArmInputs, ran: &Ran) -> Felt {
+        let R = self.frame.at(&ran.pose).R();
+        let known = ran.ft.fault.is_none() && ran.ft.tare != TareState::Running;
+        let force = if known {
+            self.conditioner.unladen(&self.wrench(inputs).force, &R)
+        } else {
+            Vector3::zeros()
+        };
+        Felt {
+            force,
+            bias: self.conditioner.bias().force,
+            gravity: self.conditioner.gravity(&R),
+            known,
         }
     }
 

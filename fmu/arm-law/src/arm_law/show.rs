@@ -26,6 +26,8 @@ pub(super) struct Ran {
     pub(super) stiff_hand: StiffHandSeen,
     /// what the law knows of the hand: about the handle, in the base frame
     pub(super) ft: Conditioned,
+    /// sample periods since the joint angles before these were read
+    pub(super) after: Real,
     /// what is wrong with the joint angles
     pub(super) encoder: Option<encoder::Fault>,
     /// what supervision says; without it, that the law does what `engage` and `hold` say
@@ -43,6 +45,7 @@ impl Default for Ran {
             slowed: false,
             stiff_hand: StiffHandSeen::default(),
             ft: Conditioned::default(),
+            after: 1.0,
             encoder: None,
             status: Status::of(Demand::Rest),
         }
@@ -61,6 +64,7 @@ impl ArmLaw {
             ft,
             encoder,
             status,
+            after: _,
         } = ran;
         let absolute = |p: &Vector3<Real>| self.origin().map_or(*p, |p_0| p_0 + p).into();
         outputs.tau_a = outcome.tau.into();
@@ -100,6 +104,15 @@ impl ArmLaw {
         };
         outputs.share = outcome.share;
         self.show_hand(ft, outputs);
+    }
+
+    /// What the watch on drift knows; without one the outputs stay as they are.
+    pub(super) fn show_drift(&self, outputs: &mut ArmOutputs) {
+        let supervisor = self.supervisor.as_ref();
+        if let Some(drift) = supervisor.and_then(|supervisor| supervisor.drift()) {
+            outputs.unattended = drift.moved();
+            outputs.ft_mass_error = drift.mass_error();
+        }
     }
 
     /// What is known of the hand.

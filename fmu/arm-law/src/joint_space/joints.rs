@@ -16,7 +16,7 @@ use admittance::retune::Tuning;
 use admittance::servo::{Drivable, Drive};
 use admittance::settling::Keep;
 use admittance::tick::{Coordinates, Tick};
-use admittance::{Motion, ParameterError, Real, Settings};
+use admittance::{Motion, ParameterError, Real, Settings, timing};
 use nalgebra::{Matrix3, Vector3};
 
 /// The law in joint space between two ticks. It starts out of the loop; the first tick engages it with q_n = q, v_n = 0.
@@ -192,7 +192,7 @@ impl Coordinates<3> for Joints {
     }
 
     /// v_n is carried along the motion since the last tick, the springs slip, gains on their way take over.
-    fn sense(&self, Angles { q, sin_cos }: &Angles) -> JointSensed {
+    fn sense(&self, Angles { q, sin_cos }: &Angles, after: Real) -> JointSensed {
         let law = self.settings.law;
         let body = self.arm.turned(&self.kinematics, sin_cos);
         let Some(last) = &self.state else {
@@ -205,15 +205,20 @@ impl Coordinates<3> for Joints {
             };
         };
         let gains = self.tuning.now();
+        let mut q_n = last.q_n;
+        if after != 1.0 {
+            let way = timing::more(after) * self.settings.T * last.v_n;
+            q_n = Vector3::from_fn(|i, _| Bounds::kept(Some(&self.bounds[i]), q_n[i], way[i]));
+        }
         let (mut e, mut v_n) = (
-            last.q_n - q,
+            q_n - q,
             transported(&last.body, &body, &(q - last.q), &last.v_n),
         );
         if let Some(before) = self.tuning.changed_from() {
             e = stored::slipped(law, before, &e);
             (e, v_n) = stored::taken_over(law, before, gains, &e, &v_n);
         }
-        let dq = |i: usize| last.motion[i].dq(q[i], &self.sampling);
+        let dq = |i: usize| last.motion[i].dq(q[i], after, &self.sampling);
         JointSensed {
             q: *q,
             body,

@@ -126,6 +126,7 @@ impl JointSpace {
                 speed: request.speed,
                 damping: at_the_joints(pose, request.damping.max()),
             },
+            after: request.after,
         };
         let accept = |tick: &Tick<3>, G: Real| {
             show(&kinematics, pose, tick, shown);
@@ -182,6 +183,22 @@ impl JointSpace {
     ) {
         *shown = HandleTick::at_rest(&pose.p, outside);
         *nominal = Nominal::at(q, self.sampled.law().M_n(&pose.sin_cos));
+    }
+
+    /// Sample period, s.
+    pub fn T(&self) -> Real {
+        self.sampled.T()
+    }
+
+    /// A torque begins to act this `part` of a sample after its tick, in (0, 1): [`acts`](Self::acts) says where. Only with
+    /// a delay.
+    pub fn lag(&mut self, part: Real) {
+        self.sampled.lag(part);
+    }
+
+    /// The torque of the last tick begins to act at the joint angles `q` (rad); `None` where they are not known.
+    pub fn acts(&mut self, q: Option<&Vector3<Real>>) {
+        self.sampled.acts(q);
     }
 
     /// What the joints last got, N·m.

@@ -98,6 +98,7 @@ impl JointServo {
                 speed: request.speed,
                 damping: at_the_joints(pose, request.damping.max()),
             },
+            after: request.after,
         };
         let (q_d, dq_d) = (&mut self.q_d, &mut self.dq_d);
         let accept = |command: &Command<3>, G: Real| {
@@ -174,6 +175,11 @@ impl JointServo {
     /// What is wrong with what the drives measure.
     pub fn feedback(&self) -> &Feedback<3> {
         self.servo.feedback()
+    }
+
+    /// Sample period, s.
+    pub fn T(&self) -> Real {
+        self.servo.T()
     }
 
     /// What the drives measured at the last tick, N·m.

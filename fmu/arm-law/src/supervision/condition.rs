@@ -14,6 +14,10 @@ pub enum Condition {
     HeartbeatLost,
     /// The human's force cannot be trusted.
     FtInvalid,
+    /// A force that nobody varies has been there for too long.
+    ForceSteady,
+    /// Such a force, and it is what a wrong tool mass leaves of the tool's weight.
+    ToolWeight,
     /// `enable` is true.
     Enabled,
     /// `engage` is true.
@@ -24,7 +28,7 @@ pub enum Condition {
     AcknowledgeRises,
     /// Nothing has been wrong for `init_time`.
     Prepared,
-    /// A hold is requested, or the human's hand is at rest.
+    /// A hold is requested, the human's hand is at rest, or nobody is seen to guide the nominal.
     Quiet,
     /// The authority has come down to 0.
     Stopped,
@@ -34,12 +38,14 @@ pub enum Condition {
 
 impl Condition {
     /// All of them, by bit.
-    pub const ALL: [Self; 13] = [
+    pub const ALL: [Self; 15] = [
         Self::EmergencyStop,
         Self::EncoderInvalid,
         Self::NotFinite,
         Self::HeartbeatLost,
         Self::FtInvalid,
+        Self::ForceSteady,
+        Self::ToolWeight,
         Self::Enabled,
         Self::EngageOn,
         Self::EngageRises,
@@ -58,6 +64,8 @@ impl Condition {
             Self::NotFinite => "result not finite",
             Self::HeartbeatLost => "heartbeat lost",
             Self::FtInvalid => "F/T invalid",
+            Self::ForceSteady => "force steady",
+            Self::ToolWeight => "tool weight wrong",
             Self::Enabled => "enabled",
             Self::EngageOn => "engage",
             Self::EngageRises => "engage rises",

@@ -2,7 +2,7 @@
 
 use super::condition::Condition;
 
-/// A reason. Of several at one tick the one with the smallest number is named.
+/// A reason. Of several at one tick a fault is named before a warning, then the one with the smallest number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[repr(i32)]
@@ -35,11 +35,15 @@ pub enum Diagnostic {
     NotEngaged = 12,
     /// `engage` is true, but has not risen since the controller was ready: it must go to false first.
     EngageStuck = 13,
+    /// Warning: a force that nobody varies moves the nominal, or would; after `drift_stop_time` a fault.
+    ForceSteady = 14,
+    /// The same, and it is what a wrong tool mass leaves of the tool's weight.
+    ToolWeight = 15,
 }
 
 impl Diagnostic {
     /// All of them, by number.
-    pub const ALL: [Self; 14] = [
+    pub const ALL: [Self; 16] = [
         Self::None,
         Self::EmergencyStop,
         Self::EncoderInvalid,
@@ -54,6 +58,8 @@ impl Diagnostic {
         Self::Preparing,
         Self::NotEngaged,
         Self::EngageStuck,
+        Self::ForceSteady,
+        Self::ToolWeight,
     ];
 
     /// Its number in an interface.
@@ -78,6 +84,8 @@ impl Diagnostic {
             Self::Preparing => "preparing",
             Self::NotEngaged => "not_engaged",
             Self::EngageStuck => "engage_stuck",
+            Self::ForceSteady => "force_steady",
+            Self::ToolWeight => "tool_weight",
         }
     }
 
@@ -89,6 +97,8 @@ impl Diagnostic {
             Condition::NotFinite => Self::NotFinite,
             Condition::HeartbeatLost => Self::HeartbeatLost,
             Condition::FtInvalid => Self::FtInvalid,
+            Condition::ForceSteady => Self::ForceSteady,
+            Condition::ToolWeight => Self::ToolWeight,
             _ => Self::None,
         }
     }

@@ -31,6 +31,7 @@
 //! | [`diagnostic`] | the reasons by number and name |
 //! | [`parameters`] | times and thresholds, and their checks |
 //! | [`watch`] | heartbeat, rising edges, a hand at rest: conditions that need a memory |
+//! | [`drift`] | a force that nobody varies: how far it may move the nominal, and what it is taken for |
 //! | [`ramp`] | authority and freedom of the nominal between states |
 //! | [`supervisor`] | one tick |
 //!
@@ -38,6 +39,7 @@
 
 pub mod condition;
 pub mod diagnostic;
+pub mod drift;
 pub mod parameters;
 pub mod ramp;
 pub mod state;
@@ -47,6 +49,7 @@ pub mod watch;
 
 pub use condition::{Condition, Conditions};
 pub use diagnostic::Diagnostic;
+pub use drift::Felt;
 pub use parameters::Parameters;
 pub use state::State;
 pub use supervisor::{Demand, Inputs, Report, Status, Supervisor};

@@ -39,6 +39,21 @@ pub struct Parameters {
     /// For how long limits may act before diagnostic reports it; 0 = it does not.
     #[parameter(116, unit = SECOND, range = NOT_NEGATIVE)]
     pub saturation_time: Real,
+    /// Farthest that the nominal's handle moves while nobody varies the force of the hand; then it holds. 0 = any distance.
+    #[parameter(190, unit = METRE, range = NOT_NEGATIVE)]
+    pub drift_distance: Real,
+    /// Change of the hand's force that shows a hand, if it comes within drift_time.
+    #[parameter(191, unit = NEWTON, range = POSITIVE, start = 0.3)]
+    pub drift_band: Real,
+    /// Time within which a hand varies its force by drift_band; what takes longer is a drift.
+    #[parameter(192, unit = SECOND, range = POSITIVE, start = 1.0)]
+    pub drift_time: Real,
+    /// For how long a force that nobody varies may press on a nominal that is held for it, before a soft stop; 0 = for ever.
+    #[parameter(193, unit = SECOND, range = NOT_NEGATIVE)]
+    pub drift_stop_time: Real,
+    /// Largest error of ft.mass that is reckoned with: a change of force that it explains, as the tool turns, shows no hand.
+    #[parameter(194, unit = KILOGRAM, range = NOT_NEGATIVE)]
+    pub drift_mass: Real,
 }
 
 impl Parameters {
@@ -78,6 +93,10 @@ pub struct Durations {
     pub brake: u32,
     /// Of saturation before it is reported; 0 = never.
     pub saturation: u32,
+    /// Within which a hand varies its force, ≥ 1.
+    pub drift: u32,
+    /// Of a steady force before it stops; 0 = never.
+    pub drift_stop: u32,
 }
 
 impl Durations {
@@ -102,6 +121,8 @@ impl Durations {
             hold: ticks(parameters.hold_time),
             brake: ticks(parameters.hold_brake).max(1),
             saturation: ticks(parameters.saturation_time),
+            drift: ticks(parameters.drift_time),
+            drift_stop: ticks(parameters.drift_stop_time),
         })
     }
 }

@@ -2,6 +2,7 @@
 
 use super::condition::{Condition, Conditions};
 use super::diagnostic::Diagnostic;
+use super::drift::{Cause, DriftWatch, Felt, Seen};
 use super::parameters::{Durations, Parameters};
 use super::ramp::Ramp;
 use super::state::State;
@@ -30,6 +31,8 @@ pub struct Inputs {
     pub encoder_valid: bool,
     /// |f_h|, N: whether the hand is at rest.
     pub force: Real,
+    /// The same as a vector in the sensor's frame, with what a drift of the sensor is told from; only for a watch on drift.
+    pub felt: Felt,
 }
 
 impl Default for Inputs {
@@ -45,6 +48,7 @@ impl Default for Inputs {
             ft_valid: true,
             encoder_valid: true,
             force: 0.0,
+            felt: Felt::default(),
         }
     }
 }
@@ -65,7 +69,7 @@ pub enum Demand {
 }
 
 /// What came of the law's tick.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Report {
     /// Whether all its results are finite.
     pub finite: bool,
@@ -75,6 +79,8 @@ pub struct Report {
     pub outside_bounds: bool,
     /// Whether the robot got less than the law asked for.
     pub saturated: bool,
+    /// Speed of the nominal's handle, m/s.
+    pub speed: Real,
 }
 
 impl Default for Report {
@@ -85,6 +91,7 @@ impl Default for Report {
             debt: false,
             outside_bounds: false,
             saturated: false,
+            speed: 0.0,
         }
     }
 }
@@ -96,6 +103,7 @@ impl Report {
         debt: false,
         outside_bounds: false,
         saturated: false,
+        speed: 0.0,
     };
 }
 
@@ -144,6 +152,9 @@ pub struct Supervisor {
     acknowledge: Edge,
     heartbeat: Heartbeat,
     hand: Hand,
+    drift: Option<DriftWatch>,
+    /// the warning of the watch on drift, as of this tick
+    warning: Diagnostic,
     good: Lasting,
     saturated: Lasting,
 }
@@ -155,8 +166,11 @@ impl Supervisor {
     /// The first parameter out of its range.
     #[allow(non_snake_case, reason = "the paper's symbol")]
     pub fn new(parameters: &Parameters, T: Real) -> Result<Self, ParameterError> {
+        let durations = Durations::new(parameters, T)?;
         Ok(Self {
-            durations: Durations::new(parameters, T)?,
+            drift: DriftWatch::new(parameters, &durations, T),
+            warning: Diagnostic::None,
+            durations,
             hold_enter: parameters.hold_enter,
             hold_leave: parameters.hold_leave,
             state: State::Off,
@@ -208,6 +222,9 @@ impl Supervisor {
             self.entered();
             self.ramp.advance(before, self.state, &self.durations);
         }
+        if let Some(drift) = &mut self.drift {
+            drift.moves(report.speed);
+        }
         // While it fades in or out the law gets less than it asks for without any limit.
         let limited = self.ramp.authority() >= 1.0 && report.saturated;
         let long = self.saturated.count(limited) >= self.durations.saturation.max(1);
@@ -219,6 +236,26 @@ impl Supervisor {
         }
     }
 
+    /// The watch on a drift of the force sensor, if there is one.
+    pub const fn drift(&self) -> Option<&DriftWatch> {
+        self.drift.as_ref()
+    }
+
+    /// What the watch on drift says to the inputs, with a hand that `rests` or not.
+    fn watched(&mut self, inputs: &Inputs, rests: bool) -> Seen {
+        let acts = self.state.acts();
+        let drift = self.drift.as_mut();
+        let seen = drift.map_or_else(Seen::default, |drift| {
+            drift.step(&inputs.felt, inputs.force, acts, rests)
+        });
+        self.warning = match seen.warning {
+            None => Diagnostic::None,
+            Some(Cause::Steady) => Diagnostic::ForceSteady,
+            Some(Cause::Tool) => Diagnostic::ToolWeight,
+        };
+        seen
+    }
+
     /// The conditions that follow from the inputs and the memory of them.
     fn see(&mut self, inputs: &Inputs) -> Conditions {
         self.heartbeat.hear(inputs.heartbeat);
@@ -228,6 +265,8 @@ impl Supervisor {
             self.hold_leave,
             self.durations.hold,
         );
+        let watched = self.watched(inputs, rests);
+        let lasts = |cause| watched.lasting && watched.warning == Some(cause);
         let seen = Conditions::default()
             .with(Condition::EmergencyStop, inputs.emergency_stop)
             .with(Condition::EncoderInvalid, !inputs.encoder_valid)
@@ -236,6 +275,8 @@ impl Supervisor {
                 self.heartbeat.lost(self.durations.heartbeat),
             )
             .with(Condition::FtInvalid, !inputs.ft_valid)
+            .with(Condition::ForceSteady, lasts(Cause::Steady))
+            .with(Condition::ToolWeight, lasts(Cause::Tool))
             .with(Condition::Enabled, inputs.enable)
             .with(Condition::EngageOn, inputs.engage)
             .with(Condition::EngageRises, self.engage.rises(inputs.engage))
@@ -243,7 +284,7 @@ impl Supervisor {
                 Condition::AcknowledgeRises,
                 self.acknowledge.rises(inputs.acknowledge),
             )
-            .with(Condition::Quiet, inputs.hold || rests);
+            .with(Condition::Quiet, inputs.hold || rests || watched.unattended);
         let good = self.state == State::Init && !seen.contain_any(FAULTS);
         seen.with(
             Condition::Prepared,
@@ -271,7 +312,7 @@ impl Supervisor {
         }
     }
 
-    /// The reason with the smallest number.
+    /// The fault, or else the reason with the smallest number.
     fn diagnostic(&self, report: &Report, long_saturated: bool) -> Diagnostic {
         let running = matches!(self.state, State::Engaged | State::Hold);
         let has = |condition| self.conditions.contain(condition);
@@ -289,6 +330,7 @@ impl Supervisor {
             (preparing, Diagnostic::Preparing),
             (!has(Condition::EngageOn), Diagnostic::NotEngaged),
             (!running, Diagnostic::EngageStuck),
+            (self.warning != Diagnostic::None, self.warning),
         ]
         .into_iter()
         .find_map(|(holds, diagnostic)| holds.then_some(diagnostic))

@@ -26,6 +26,8 @@ pub const FAULTS: &[Condition] = &[
     NotFinite,
     HeartbeatLost,
     FtInvalid,
+    ForceSteady,
+    ToolWeight,
 ];
 
 /// The table. The first row that applies decides; where none does, the state stays.
@@ -81,6 +83,20 @@ pub const RULES: &[Rule] = &[
     },
     Rule {
         from: &[Engaged, Hold],
+        when: &[ForceSteady],
+        unless: &[],
+        to: SoftStop,
+        why: "nobody is known to guide, and somebody must look at the sensor",
+    },
+    Rule {
+        from: &[Engaged, Hold],
+        when: &[ToolWeight],
+        unless: &[],
+        to: SoftStop,
+        why: "likewise, and at the tool",
+    },
+    Rule {
+        from: &[Engaged, Hold],
         when: &[],
         unless: &[Enabled],
         to: SoftStop,
@@ -117,6 +133,20 @@ pub const RULES: &[Rule] = &[
     Rule {
         from: &[Ready],
         when: &[FtInvalid],
+        unless: &[],
+        to: Init,
+        why: "likewise",
+    },
+    Rule {
+        from: &[Ready],
+        when: &[ForceSteady],
+        unless: &[],
+        to: Init,
+        why: "likewise",
+    },
+    Rule {
+        from: &[Ready],
+        when: &[ToolWeight],
         unless: &[],
         to: Init,
         why: "likewise",

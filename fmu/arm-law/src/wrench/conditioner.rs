@@ -226,6 +226,17 @@ impl Conditioner {
         self.filter.keep(made.passed.as_ref());
     }
 
+    /// What is left of the raw `force` (N) without tool and bias, before filter and deadband, in an orientation `R` of the
+    /// sensor.
+    pub fn unladen(&self, force: &Vector3<Real>, R: &Matrix3<Real>) -> Vector3<Real> {
+        force - self.sensor.tool.weight(R).force - self.bias().force
+    }
+
+    /// Acceleration of gravity in the sensor's frame, m/s², in an orientation `R` of the sensor.
+    pub fn gravity(&self, R: &Matrix3<Real>) -> Vector3<Real> {
+        R.tr_mul(&self.sensor.tool.gravity.into())
+    }
+
     /// What the sensor reads when nothing acts on it, as far as a tare has found it; sensor frame.
     pub fn bias(&self) -> Wrench {
         *self.tare.bias()

@@ -47,7 +47,8 @@
 //! its direction. The low pass turns and delays it: that is a stiff hand's loss of margin, see [`filter`].
 //!
 //! **Not compensated:** the tool's inertia (mass times acceleration of the sensor, 0.4 N for 0.4 kg at 1 m/s²), drift of
-//! the bias with temperature after the tare, cross talk and scale errors of the sensor.
+//! the bias with temperature after the tare, cross talk and scale errors of the sensor. What a drift may do is bounded by
+//! supervision, `supervision/drift.rs`.
 
 pub mod conditioner;
 pub mod deadband;

@@ -43,6 +43,27 @@ fn a_time_or_threshold_out_of_range_is_refused_by_name_value_and_range() {
         refused(|p| p.saturation_time = -2.0),
         format!("saturation_time = -2: {of}")
     );
+    assert_eq!(
+        refused(|p| p.drift_distance = -0.1),
+        format!("drift_distance = -0.1: {of}")
+    );
+    assert_eq!(
+        refused(|p| p.drift_stop_time = f64::NAN),
+        format!("drift_stop_time = NaN: {of}")
+    );
+    assert_eq!(
+        refused(|p| p.drift_mass = -1.0),
+        format!("drift_mass = -1: {of}")
+    );
+    for (message, name) in [
+        (refused(|p| p.drift_band = 0.0), "drift_band"),
+        (refused(|p| p.drift_time = 0.0), "drift_time"),
+    ] {
+        assert!(
+            message.starts_with(&format!("{name} = 0: expected ")),
+            "{message}"
+        );
+    }
 }
 
 #[test]
@@ -72,6 +93,8 @@ fn times_become_the_nearest_number_of_ticks_and_at_least_one_where_they_are_not_
         hold_time: 1e12,
         hold_brake: 0.0024,
         saturation_time: 0.0,
+        drift_time: 0.0004,
+        drift_stop_time: 0.0,
         ..Parameters::default()
     };
     let durations = Durations::new(&parameters, 0.001).unwrap();
@@ -84,7 +107,9 @@ fn times_become_the_nearest_number_of_ticks_and_at_least_one_where_they_are_not_
             heartbeat: 1,
             hold: u32::MAX,
             brake: 2,
-            saturation: 0
+            saturation: 0,
+            drift: 1,
+            drift_stop: 0
         }
     );
 }

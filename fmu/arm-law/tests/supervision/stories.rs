@@ -16,6 +16,11 @@ const PARAMETERS: Parameters = Parameters {
     hold_time: 0.006,
     hold_brake: 0.004,
     saturation_time: 0.003,
+    drift_distance: 0.0,
+    drift_band: 0.3,
+    drift_time: 1.0,
+    drift_stop_time: 0.0,
+    drift_mass: 0.0,
 };
 
 /// A supervisor, its inputs, and a partner whose heart beats.

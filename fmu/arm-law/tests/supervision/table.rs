@@ -4,7 +4,7 @@ use arm_law::supervision::table::{FAULTS, RULES, Rule, decisive, next};
 use arm_law::supervision::{Condition, Conditions, Diagnostic, State};
 use std::collections::{HashMap, HashSet};
 
-/// Every state under every combination of conditions: 7 × 2¹³.
+/// Every state under every combination of conditions: 7 × 2¹⁵.
 fn everything() -> impl Iterator<Item = (State, Conditions)> {
     let combinations = 0..1 << Condition::ALL.len();
     combinations.flat_map(|bits| State::ALL.map(|state| (state, Conditions::from_bits(bits))))
@@ -14,7 +14,8 @@ fn everything() -> impl Iterator<Item = (State, Conditions)> {
 fn second_reading(state: State, conditions: Conditions) -> State {
     use Condition::*;
     let has = |condition| conditions.contain(condition);
-    let sensing = !has(EncoderInvalid) && !has(HeartbeatLost) && !has(FtInvalid);
+    let steady = has(ForceSteady) || has(ToolWeight);
+    let sensing = !has(EncoderInvalid) && !has(HeartbeatLost) && !has(FtInvalid) && !steady;
     let wanted = has(Enabled) && has(EngageOn);
     match state {
         State::Off => match (has(NotFinite), has(Enabled)) {

@@ -1,8 +1,9 @@
 //! Random walks: whatever the inputs do, the demand changes as promised.
 
 use arm_law::supervision::{
-    Demand, Diagnostic, Inputs, Parameters, Report, State, Status, Supervisor,
+    Demand, Diagnostic, Felt, Inputs, Parameters, Report, State, Status, Supervisor,
 };
+use nalgebra::Vector3;
 use proptest::prelude::*;
 
 const T: f64 = 0.001;
@@ -19,9 +20,21 @@ fn parameters() -> impl Strategy<Value = Parameters> {
         time(),
         time(),
         time(),
+        (prop_oneof![Just(0.0), 0.0..0.05], 0.1..1.0, 0.0..2.0),
     )
         .prop_map(
-            |(init, engage, stop, heartbeat, enter, more, hold, brake, saturation)| Parameters {
+            |(
+                init,
+                engage,
+                stop,
+                heartbeat,
+                enter,
+                more,
+                hold,
+                brake,
+                saturation,
+                (distance, band, mass),
+            )| Parameters {
                 init_time: init,
                 engage_time: engage,
                 soft_stop_time: stop,
@@ -31,6 +44,11 @@ fn parameters() -> impl Strategy<Value = Parameters> {
                 hold_time: hold,
                 hold_brake: brake,
                 saturation_time: saturation,
+                drift_distance: distance,
+                drift_band: band,
+                drift_time: 0.01,
+                drift_stop_time: saturation,
+                drift_mass: mass,
             },
         )
 }
@@ -45,6 +63,23 @@ struct Stretch {
 }
 
 prop_compose! {
+    fn felt()(
+        force in prop_oneof![4 => 0.0..8.0, 1 => Just(f64::INFINITY)],
+        z in -9.81..9.81,
+        tool in any::<bool>(),
+        known in prop::bool::weighted(0.9),
+    ) -> Felt {
+        let gravity = Vector3::new(0.0, 9.81, z);
+        Felt {
+            force: if tool { 0.5 * gravity } else { Vector3::new(force, 0.0, 0.0) },
+            gravity,
+            bias: Vector3::zeros(),
+            known,
+        }
+    }
+}
+
+prop_compose! {
     fn stretch()(
         ticks in 1_usize..40,
         enable in prop::bool::weighted(0.95),
@@ -55,6 +90,8 @@ prop_compose! {
         ft_valid in prop::bool::weighted(0.95),
         encoder_valid in prop::bool::weighted(0.97),
         force in prop_oneof![0.0..8.0, Just(f64::NAN)],
+        felt in felt(),
+        speed in 0.0..1.0,
         beats in prop::bool::weighted(0.9),
         finite in prop::bool::weighted(0.98),
         debt in prop::bool::weighted(0.1),
@@ -65,10 +102,10 @@ prop_compose! {
             ticks,
             inputs: Inputs {
                 enable, engage, acknowledge, emergency_stop, hold, heartbeat: 0,
-                ft_valid, encoder_valid, force,
+                ft_valid, encoder_valid, force, felt,
             },
             beats,
-            report: Report { finite, debt, outside_bounds, saturated },
+            report: Report { finite, debt, outside_bounds, saturated, speed },
         }
     }
 }

@@ -2,8 +2,10 @@
 #![allow(non_snake_case, reason = "the paper's symbols")]
 
 mod encoders;
+mod exchange;
 
 use admittance::law::LAW;
+use admittance::timing::IN_TIME;
 use declaration::{Access, Declare};
 use export::{Clock, Log, Model, Step};
 use testbed_controller::TestbedController;
@@ -131,44 +133,62 @@ fn until_engage_is_true_there_is_no_force_and_then_it_starts_at_the_sensed_posit
     assert!(controller.outputs.G < G);
 }
 
+/// `steps` steps of `h` (s) with the sample period `T` (s) asked for.
+#[allow(non_snake_case, reason = "the paper's symbol")]
+fn run(T: f64, h: f64, steps: u32) -> TestbedController {
+    let mut controller = initialized(|c| {
+        c.parameters.T = T;
+        c.inputs.tau_h = 3.0;
+    });
+    (0..steps).for_each(|k| step(&mut controller, k, h));
+    controller
+}
+
 #[test]
-fn odd_step_sizes_run_the_same_ticks_as_one_step_a_tick() {
-    let run = |h: f64, steps: u32| {
-        let mut controller = initialized(|c| c.inputs.tau_h = 3.0);
-        (0..steps).for_each(|k| step(&mut controller, k, h));
-        controller
-    };
-    let reference = run(0.002, 30);
-    assert_eq!(reference.tick, 29);
-    for (h, steps) in [
-        (0.0002, 300),
-        (0.003, 20),
-        (0.06, 1),
-        (0.001, 60),
-        (0.004, 15),
-    ] {
-        let mut other = run(h, steps);
+fn steps_that_divide_the_period_run_the_same_ticks_as_one_step_a_tick() {
+    let reference = run(0.002, 0.002, 30);
+    assert_eq!((reference.tick, reference.sample_period), (29, 0.002));
+    for parts in [2_u32, 3, 4, 10, 40] {
+        let mut other = run(0.002, 0.002 / f64::from(parts), 30 * parts);
         assert!(
             (&other.outputs, other.tick) == (&reference.outputs, reference.tick),
-            "h = {h} s"
+            "T/{parts}"
         );
         // The state is the same, too: it goes on alike.
         let mut goes_on = reference.clone();
         for k in 30..60 {
-            tick(&mut other, k);
-            tick(&mut goes_on, k);
-            assert!(other.outputs == goes_on.outputs, "h = {h} s, tick {k}");
+            for controller in [&mut other, &mut goes_on] {
+                step(controller, k, 0.002);
+            }
+            assert!(other.outputs == goes_on.outputs, "T/{parts}, tick {k}");
         }
     }
-    // Between two ticks outputs hold: 0.0595 s to 0.06 s contains none.
-    let mut between = run(0.0005, 118);
+    // Between two ticks outputs hold.
+    let mut between = run(0.002, 0.002 / 4.0, 119);
     assert_eq!(between.tick, 29);
     between.inputs.tau_h = -100.0;
-    step(&mut between, 118, 0.0005);
+    between.inputs.q = 0.0;
+    step(&mut between, 119, 0.002 / 4.0);
     assert_eq!(
-        (between.outputs.tau_a, between.tick),
-        (reference.outputs.tau_a, 29)
+        (between.outputs.tau_a, between.outputs.q_n),
+        (reference.outputs.tau_a, reference.outputs.q_n)
     );
+}
+
+#[test]
+fn steps_that_do_not_divide_the_period_are_sampled_with_the_nearest_number_of_steps() {
+    // The step, how many make up a sample, and that sample's period.
+    for (h, steps) in [(0.003, 1), (0.06, 1), (0.0014, 1), (0.0006, 3), (0.004, 1)] {
+        let period = h * f64::from(steps);
+        let other = run(0.002, h, 30 * steps);
+        let reference = run(period, period, 30);
+        assert!(
+            (&other.outputs, other.tick) == (&reference.outputs, reference.tick),
+            "h = {h} s"
+        );
+        assert_eq!((other.sample_period, other.tick), (period, 29));
+        assert_eq!(other.outputs.timing, IN_TIME);
+    }
 }
 
 #[test]
@@ -476,6 +496,6 @@ fn a_number_of_ticks_that_is_not_that_of_the_time_is_refused_by_name() {
     }
     assert_eq!(controller.fits(&clock), Ok(()));
     let refusal = controller.fits(&Clock::at_start(0.0)).unwrap_err();
-    let named = "number of ticks = 20, expected 0 periods of 0.002 s";
+    let named = "beginning of the last sample = 0.038 s, expected a time in the 0.0 s";
     assert!(refusal.0.starts_with(named), "{refusal}");
 }

@@ -22,7 +22,7 @@ PLACEHOLDER = re.compile(r"\{(\w+)(?:\.(\w+))?\}")
 #: Keys that hold a text, whatever an axis' values are.
 TEXTS = ("id", "title", "label", "case", "y_label")
 #: Fields of an axis' value that are part of every case over it; so are names with a dot, which are parameters.
-OF_A_CASE = ("parameters", "inputs", "profiles", "coupling", "duration")
+OF_A_CASE = ("parameters", "inputs", "profiles", "coupling", "duration", "step")
 
 #: Of one entry. Each combination is a run or a number that someone reads.
 MAX_COMBINATIONS = 10_000

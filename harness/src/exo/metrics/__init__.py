@@ -8,12 +8,14 @@
 | `wall` | the nominal while the mass rests at a wall |
 | `response` | velocity over force at one sine, against closed forms and the desired model |
 | `growth` | how fast a swing grows or decays, against the eigenvalues of the sampled loop |
+| `impedance` | what a hand gets: impedance over frequency, and how stiff it may be |
+| `theorems` | L2 gains, and how one signal comes up to another |
 
 `registry` finds and calls them, `loops` reads the closed forms' parameters from a recording. All quantities are
 keyword-only and SI. A window takes the ticks after ≤ t < before. What does not happen is NaN, which fails every check.
 """
 
-from exo.metrics import basic, coupling, events, growth, response, wall
+from exo.metrics import basic, coupling, events, growth, impedance, response, theorems, wall
 from exo.metrics.registry import COMPONENTS, REGISTRY, check, complete, evaluate
 
 __all__ = [
@@ -26,6 +28,8 @@ __all__ = [
     "evaluate",
     "events",
     "growth",
+    "impedance",
     "response",
+    "theorems",
     "wall",
 ]

@@ -91,6 +91,13 @@ def largest_step(run: Recording, *, columns: tuple[str, ...], after: float, befo
 
 
 @metric
+def farthest(run: Recording, *, columns: tuple[str, ...], after: float, before: float | None = None) -> float:
+    """Largest distance of a point, by its coordinates, from where it is at the first tick of the window."""
+    track = np.array([values(run, column, after, before) for column in columns])
+    return float(np.max(np.linalg.norm(track - track[:, :1], axis=0)))
+
+
+@metric
 def residual_share(run: Recording, *, residual: str, works: tuple[str, ...]) -> float:
     """Largest residual of an energy balance over the throughput: the total variation of all works; NaN if none."""
     throughput = sum(float(np.sum(np.abs(np.diff(run[work])))) for work in works)

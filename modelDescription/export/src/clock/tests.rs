@@ -2,7 +2,7 @@
 #![allow(non_snake_case, reason = "T is the sample period of the paper")]
 
 use super::*;
-use crate::Ticks;
+use crate::{Sample, Sampler};
 
 /// How an importer comes to the time of the next step.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -15,16 +15,17 @@ enum Importer {
     Subtracts,
 }
 
-/// Makes `steps` steps of `parts`/`of` periods `T` from `start_time` on and asserts after each that the ticks are those that
-/// whole numbers give.
+/// Makes `steps` steps of `parts`/`of` periods `T` from `start_time` on and asserts after each that the samples are those
+/// that whole numbers give.
 fn runs(importer: Importer, start_time: f64, T: f64, [parts, of]: [u64; 2], steps: u64) {
     let h = T * parts as f64 / of as f64;
-    let (mut clock, mut ticks) = (Clock::at_start(start_time), Ticks::default());
-    let (mut t, mut due) = (start_time, 0);
-    for i in 1..=steps {
+    let (mut clock, mut sampler) = (Clock::at_start(start_time), None);
+    let a_sample = (of as f64 / parts as f64).round().max(1.0) as u64;
+    let mut t = start_time;
+    for i in 0..steps {
         let next = match importer {
             Importer::Sums => t + h,
-            _ => start_time + i as f64 * h,
+            _ => start_time + (i + 1) as f64 * h,
         };
         let size = if importer == Importer::Subtracts {
             next - t
@@ -34,18 +35,21 @@ fn runs(importer: Importer, start_time: f64, T: f64, [parts, of]: [u64; 2], step
         let step = clock
             .step(t, size)
             .unwrap_or_else(|refusal| panic!("{importer:?} from {start_time} s: {refusal}"));
-        let run = ticks.within(&step, T);
-        let before = std::mem::replace(&mut due, (i * parts).div_ceil(of));
+        let due = (i % a_sample == 0).then_some(Sample {
+            number: i / a_sample,
+            after: 1.0,
+        });
+        let sampler = sampler.get_or_insert_with(|| Sampler::new(&step, T));
         assert_eq!(
-            run,
-            before..due,
+            sampler.sample(&step),
+            due,
             "{importer:?} from {start_time} s, T = {T} s, step {i} of {parts}/{of} T"
         );
         clock.advance(&step);
         t = next;
     }
     assert_eq!(clock.check(true), Ok(()));
-    assert_eq!(ticks.check(&clock, T), Ok(()));
+    assert_eq!(sampler.map(|sampler| sampler.check(&clock)), Some(Ok(())));
 }
 
 #[test]
@@ -71,6 +75,17 @@ fn steps_of_one_two_and_half_a_period_run_their_ticks_whatever_the_importer_does
             runs(Importer::Subtracts, start_time, T, [1, 1], 200_000);
             runs(Importer::Subtracts, start_time, T, [2, 1], 200_000);
             runs(Importer::Subtracts, start_time, T, [1, 2], 200_000);
+        }
+    }
+}
+
+#[test]
+fn a_step_size_that_does_not_divide_the_period_makes_a_period_of_its_own() {
+    for start_time in [0.0, -1.0, 1e5] {
+        for share in [[7, 10], [3, 10], [3, 2], [61, 10], [13, 100], [1000, 1]] {
+            for importer in [Importer::Sums, Importer::Multiplies, Importer::Subtracts] {
+                runs(importer, start_time, 1e-3, share, 200_000);
+            }
         }
     }
 }
