@@ -24,8 +24,6 @@ WITHOUT = (
     "controller.sample_period",  # the caller's clock
     "controller.gain_warning",  # advice while gains are chosen
     "controller.M_min",
-    "controller.q_d",  # the servo form of the testbed
-    "controller.dq_d",
     "controller.M_n[",
     "controller.ft.bias",
     "controller.stiff_hand.k_h",
@@ -49,6 +47,7 @@ DOUBLE = [
     ("axis", "wall", "passive_10_0.5"),
     ("axis", "adversary", "passive_bounded"),
     ("axis", "limits", "all"),
+    ("axis", "position_servo", "wall_servo_passive_bounded"),
 ]
 
 #: Scenario and case, of which the first 10 s are replayed: a payload of 25 kg is pressed and lifted by half a metre; a

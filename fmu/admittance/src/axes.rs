@@ -3,6 +3,7 @@
 use crate::axis::{Axis, AxisProposal, AxisRequest, AxisSensed, Driven};
 use crate::bounds::Bounds;
 use crate::motion::Sampling;
+use crate::servo::{Drivable, Drive};
 use crate::settling::Keep;
 use crate::tick::{Coordinates, Tick};
 use crate::{Gains, ParameterError, Real, Settings, real};
@@ -229,6 +230,33 @@ impl<const N: usize> Coordinates<N> for Axes<N> {
             axis.settle_gains(&self.settings);
         }
         self.engaged = false;
+    }
+}
+
+impl<const N: usize> Drivable<N> for Axes<N> {
+    fn drive(&self) -> Drive<N> {
+        let of = |gain: fn(&Gains) -> Real| SVector::from_fn(|i, _| gain(self.axes[i].gains()));
+        Drive {
+            K: of(|gains| gains.K),
+            K_P: of(|gains| gains.K_P),
+            f_max: of(|gains| gains.f_max),
+        }
+    }
+
+    fn v_m(&self, driven: &[Driven; N]) -> SVector<Real, N> {
+        SVector::from_fn(|i, _| driven[i].v_m)
+    }
+
+    fn follow(
+        &mut self,
+        proposal: &[AxisProposal; N],
+        driven: &[Driven; N],
+        v_b: &[Option<Real>; N],
+    ) {
+        for i in 0..N {
+            self.axes[i].follow(&proposal[i], driven[i], v_b[i], &self.settings);
+        }
+        self.engaged = true;
     }
 }
 

@@ -145,6 +145,12 @@ impl Axis {
         }
     }
 
+    /// Its gains at this tick.
+    #[inline]
+    pub fn gains(&self) -> &Gains {
+        &self.rule.gains
+    }
+
     /// Energy stored at this tick, J. 0 for alpha = 0.
     #[inline]
     pub fn stored(&self, sensed: &AxisSensed) -> Real {
@@ -242,13 +248,28 @@ impl Axis {
         settings: &Settings,
     ) {
         let (rule, sample) = (&self.rule, &proposal.sample);
+        let limited = slips && f != proposal.f_demand;
+        let v_b = limited.then(|| rule.at_the_bound(sample, f / rule.gains.K));
+        self.follow(proposal, driven, v_b, settings);
+    }
+
+    /// The same where the nominal is set back to `v_b` (m/s), if there is one of no more energy.
+    #[inline]
+    pub fn follow(
+        &mut self,
+        proposal: &AxisProposal,
+        driven: Driven,
+        v_b: Option<Real>,
+        settings: &Settings,
+    ) {
+        let sample = &proposal.sample;
         let Driven { v_m, held } = driven;
         let mut v_n = midpoint::end(sample, v_m);
         if held {
             v_n = slower(v_n, v_m);
         }
-        if slips && f != proposal.f_demand {
-            v_n = slower(v_n, rule.at_the_bound(sample, f / rule.gains.K));
+        if let Some(v_b) = v_b {
+            v_n = slower(v_n, v_b);
         }
         self.last = Last {
             q: proposal.q,

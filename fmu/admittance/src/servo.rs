@@ -1,4 +1,4 @@
-//! The position-servo form: the nominal trajectory as the command of a drive that closes the PI loop itself.
+//! The position-servo form: the nominal trajectory as the command of drives that close the PI loop themselves.
 //!
 //! Footnote of sec:standard_adm: a robot that is not torque controlled gets q_n and dq_n, and its *measured* torque takes
 //! the place of tau_a in the reaction (eq:obs_dyn). The drive's loop must be the law's,
@@ -15,6 +15,9 @@
 //! v_m = (2 M_n v_n/T + f_h − alpha y)/(2 M_n/T + D_n),   v_n⁺ = 2 v_m − v_n,   q_n⁺ = q_n + T v_m
 //! q_d = q_n + T v_m/2,   dq_d = v_m       the command for the sample that begins
 //! ```
+//!
+//! It is written for any [`Coordinates`](crate::tick::Coordinates) whose couplings are each a drive's own, with constant gains: the
+//! axes, and the arm's joints. Forces at an arm's handle are no drive's.
 //!
 //! **Which instant.** The drive holds the command for one period. The held values with which its mean torque is that of a
 //! drive that follows q_n(t) = q_n + v_m(t − t_k) are the trajectory's means: its middle, not its start (a lag of T/2,
@@ -36,198 +39,373 @@
 //!
 //! **Saturation.** What is measured is what was delivered. So `passive`, whose nominal feels what was *not* delivered,
 //! has no servo form and is refused; below the limit `passive_applied` is the same law. Under `passive_bounded` the spring
-//! slips as in the torque form, and at the limit |tau_m| ≥ f_max the reset applies (docs/specification.md section 1,
-//! step 3): v_n⁺ = v_b if v_b² ≤ v_n⁺², v_b = (y − K_P e)/(1 + K_P T/2) + dq.
+//! slips as in the torque form, and at the limit the reset applies (docs/specification.md section 1, step 3): v_n⁺ = v_b if
+//! v_b² ≤ v_n⁺², v_b = (y − K_P e)/(1 + K_P T/2) + dq. Three things differ, since a drive is never the law to the last digit:
+//!
+//! * A coupling is at its limit where |tau_m| ≥ f_max, and also where the spring is at the bound at which it slips: a drive
+//!   that gives up 1 % earlier is at its limit too.
+//! * Only a nominal that runs ahead is set back: sgn(tau_m)(v_n⁺ − v_b) > 0. At a wall v_b is about 0. Without the
+//!   direction, a nominal that the human pulls off the wall would be stopped at every tick.
+//! * In v_b, y is within ±f_max/K and y − K_P e is 0 where it would point back: a drive with a larger limit does not let the
+//!   nominal run ahead of the robot, and one with smaller gains does not throw it back. An exact drive has neither.
 //!
 //! **Energy.** H as in [`storage`](crate::storage), ΔG = ΔH + tau_m Δq − (K/alpha) f_h v_m T, known at t_{k+1}. The drive's torque varies
 //! within the sample, so tau_m Δq is its work up to K a² T³/12 at an acceleration a; the true work is the smaller one.
-//! The torque is the drive's, so the law cannot withhold it: the tank is observed, not enforced.
+//! The torque is the drive's: the law cannot share it out beforehand. Under a law that keeps its tank it does what its
+//! command can: it settles as the torque form does, and a tank below zero has the drive stand still at q, where it
+//! takes energy only, while the human's work on the nominal repays. So the tank ends a sample no further below zero than that
+//! sample carried it: `docs/passivity.md`, the servo form.
 
-use crate::midpoint::{self, Rule, Sample, slower};
-use crate::motion::Sampling;
-use crate::real::{self, floored};
-use crate::{Gains, Motion, ParameterError, Real, Settings};
+mod drive;
+mod feedback;
 
-/// The law in servo form between two ticks, one axis.
+pub use drive::Drive;
+pub use feedback::{FAULT, Fault, Feedback, message};
+
+use crate::ledger::{Flow, Ledger};
+use crate::real::{self, sat};
+use crate::settling::Settlement;
+use crate::tick::{Coordinates, Refused, Tick};
+use crate::{Axes, Bounds, Gains, ParameterError, Reach, Real, Settings};
+use nalgebra::SVector;
+
+/// Coordinates whose couplings drives can close, each its own.
+pub trait Drivable<const N: usize>: Coordinates<N> {
+    /// The couplings, as the drives have them.
+    fn drive(&self) -> Drive<N>;
+    /// The nominals' mean velocities in the sample that begins, m/s.
+    fn v_m(&self, driven: &Self::Driven) -> SVector<Real, N>;
+    /// The nominals move on. Where `v_b` has a velocity (m/s), and one of no more energy, a nominal is set back to it.
+    fn follow(&mut self, proposal: &Self::Proposal, driven: &Self::Driven, v_b: &[Option<Real>; N]);
+}
+
+/// The law in servo form between two ticks.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct Servo {
-    settings: Settings,
-    sampling: Sampling,
-    rule: Rule,
-    q_n: Option<Real>,
-    v_n: Real,
-    motion: Motion,
-    energy: Energy,
+pub struct Servo<L, const N: usize> {
+    law: L,
+    ledger: Ledger<N>,
+    feedback: Feedback<N>,
+    /// what the drives measured at the last tick, N
+    tau_m: SVector<Real, N>,
+    /// whether there was one
+    ticked: bool,
 }
 
-/// Energy as of the last tick, J; all 0 for alpha = 0, where it is not defined.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct Energy {
-    /// Stored.
-    pub H: Real,
-    /// Created so far; negative: dissipated.
-    pub G: Real,
-    /// E_0 less what was created, refilled up to E_0.
-    pub tank: Real,
-    q: Option<Real>,
-    supplied: Real,
+/// What is sensed and asked for at a tick.
+#[derive(Clone, Copy, Debug)]
+pub struct Inputs<'a, L: Coordinates<N>, const N: usize> {
+    /// Where the robot is, in the law's coordinates.
+    pub place: &'a L::Place,
+    /// The drives' positions, m or rad.
+    pub q: &'a SVector<Real, N>,
+    /// Forces of the human along the law's coordinates, N.
+    pub f_h: &'a SVector<Real, N>,
+    /// Forces of the drives, means over the sample that ended, N.
+    pub tau_m: &'a SVector<Real, N>,
+    /// What is asked of the nominals.
+    pub request: &'a L::Request,
+    /// Sample periods that have passed since the place before this one was read; 1: the tick is in time.
+    pub after: Real,
 }
 
-/// What happened at a tick; every value is the one at t_k.
+/// What came of a tick.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ServoTick {
-    /// Position command of the drive, m: the nominal's in the middle of the sample that begins.
-    pub q_d: Real,
-    /// Velocity command of the drive, m/s.
-    pub dq_d: Real,
-    /// Nominal position, after the slip, m.
-    pub q_n: Real,
-    /// Nominal velocity, m/s.
-    pub dq_n: Real,
-    /// q_n − q after the slip, m.
-    pub e_nr: Real,
-    /// The robot's velocity, backward difference, m/s.
-    pub dq: Real,
-    /// Whether the drive's torque reached f_max in the sample that ended.
-    pub saturated: bool,
+pub struct Command<const N: usize> {
+    /// Positions for the drives, m: the nominals' in the middle of the sample that begins.
+    pub q_d: SVector<Real, N>,
+    /// Velocities for the drives, m/s: the nominals' means in that sample.
+    pub dq_d: SVector<Real, N>,
+    /// The law's tick, without a force of its own. It is saturated where a drive's force reached f_max in the sample that
+    /// ended, or a spring is at the bound at which it slips.
+    pub tick: Tick<N>,
 }
 
-impl Servo {
-    /// Out of the loop.
+impl<const N: usize> Command<N> {
+    /// To stand still at `q` (m), out of the loop.
+    pub fn at_rest(q: &SVector<Real, N>) -> Self {
+        Self {
+            q_d: *q,
+            dq_d: SVector::zeros(),
+            tick: Tick::at_rest(q),
+        }
+    }
+
+    /// Whether drives can be told so.
+    pub fn is_finite(&self) -> bool {
+        let Self { q_d, dq_d, tick } = self;
+        real::are_finite(q_d.iter().chain(dq_d).chain(&tick.q_n).chain(&tick.dq_n))
+    }
+}
+
+impl<L: Drivable<N>, const N: usize> Servo<L, N> {
+    /// `law`, out of the loop, on a robot with this `reach`.
     ///
     /// # Errors
-    /// The first parameter out of its range, or a law without a servo form.
-    pub fn new(settings: Settings, gains: Gains) -> Result<Self, ParameterError> {
-        settings.check()?;
-        gains.check(None)?;
+    /// A law without a servo form, or the first value of the reach out of its range.
+    pub fn of(law: L, reach: &Reach<N>) -> Result<Self, ParameterError> {
+        reach.check()?;
+        let settings = *law.settings();
         if !settings.law.row().servo {
             return Err(ParameterError::NoServoForm(settings.law));
         }
-        let mut servo = Self {
-            settings,
-            sampling: Sampling::new(&settings),
-            rule: Rule::new(&settings, &gains),
-            q_n: None,
-            v_n: 0.0,
-            motion: Motion::default(),
-            energy: Energy::default(),
+        // What was measured over a sample has worked in it, whatever the wiring delays.
+        let measured = Settings {
+            delayed: false,
+            ..settings
         };
-        servo.energy.tank = if servo.is_energy_defined() {
-            settings.E_0
-        } else {
-            0.0
-        };
-        Ok(servo)
+        Ok(Self {
+            ledger: Ledger::new(&measured, reach),
+            feedback: Feedback::new(settings.T),
+            law,
+            tau_m: SVector::zeros(),
+            ticked: false,
+        })
     }
 
-    /// Another nominal mass and damping, at once; a heavier mass is slowed so that K M_n v_n² does not rise. The other gains
-    /// are the drive's as well, which this law cannot change.
+    /// One tick in the loop; the first one engages with q_n = q, v_n = 0, and its nominals do not feel what was measured.
+    /// Nothing has happened until `accept` has seen the command and the energy G (J), and says yes.
     ///
     /// # Errors
-    /// A gain out of its range, or a gain of the drive other than it was; all gains stay as they were.
-    pub fn tune(&mut self, gains: Gains) -> Result<(), ParameterError> {
-        gains.check(None)?;
-        let now = self.rule.gains;
-        for (name, value, fixed) in [
-            ("K", gains.K, now.K),
-            ("K_P", gains.K_P, now.K_P),
-            ("f_max", gains.f_max, now.f_max),
-        ] {
-            if value != fixed {
-                let expected = "the value at the start, in servo form the drive has it too";
-                return Err(ParameterError::of(name, None, value, expected));
-            }
+    /// `accept` says no: the law is as it was.
+    pub fn tick(
+        &mut self,
+        inputs: &Inputs<'_, L, N>,
+        accept: impl FnOnce(&Command<N>, Real) -> bool,
+    ) -> Result<(), Refused> {
+        let Inputs {
+            place,
+            q,
+            f_h,
+            tau_m,
+            request,
+            after,
+        } = *inputs;
+        let (law, T) = (&self.law, self.law.settings().T);
+
+        // 1. Settle. The sample that ends is known now, and what its force did.
+        let ledger = self.measured(tau_m);
+        let mut sensed = law.sense(place, after);
+        let mut settlement = ledger.settle(law, &mut sensed, q);
+        if !law.is_engaged() {
+            settlement = settlement.without_motion();
         }
-        self.v_n *= real::sqrt(real::min(now.M_n / gains.M_n, 1.0));
-        self.rule = Rule::new(&self.settings, &gains);
+        let owes = ledger.terms.kept && settlement.tank < -settlement.rounding;
+        let mut feedback = self.feedback;
+        if after == 1.0 {
+            let moved = ledger.q.map(|last| q - last);
+            feedback.compare(&law.drive(), tau_m, moved.as_ref(), T);
+        }
+
+        // 2. Propose. The nominals feel what was measured. In debt they feel nothing, so that the human's work repays.
+        let felt = if law.is_engaged() && !owes {
+            *tau_m
+        } else {
+            SVector::zeros()
+        };
+        let proposal = law.propose(&sensed, f_h, request);
+        let driven = law.driven(&proposal, &felt);
+        let v_m = law.v_m(&driven);
+        let mut command = Command::at_rest(q);
+        let tick = &mut command.tick;
+        law.show(&proposal, &driven, tick);
+        tick.f_demand = SVector::zeros();
+        tick.outside_bounds = settlement.is_outside();
+        tick.engaged = true;
+        let v_b = self.set_back(&felt, &v_m, tick);
+
+        // 3. Command. In debt the drives stand still: there they only take.
+        if !owes {
+            (command.q_d, command.dq_d) = (command.tick.q_n + v_m * (T / 2.0), v_m);
+        }
+        if !accept(&command, settlement.G()) {
+            return Err(Refused);
+        }
+
+        // 4. Commit. The nominals move on, and the sample that begins is booked.
+        let flow = Flow {
+            supplied: law.supplied(&proposal, &driven),
+            exchanged: law.exchanged(&proposal, &driven),
+        };
+        feedback.command(command.q_d - q - command.dq_d * (T / 2.0), command.dq_d);
+        self.law.follow(&proposal, &driven, &v_b);
+        self.book(ledger, &settlement, Some(q), tau_m, flow);
+        self.feedback = feedback;
         Ok(())
     }
 
-    /// One tick at position `q` (m), human force `f_h` (N) and `tau_m` (N), the mean of the drive's torque over the sample
-    /// that ended; the first tick engages with q_n = q, v_n = 0 and its nominal does not feel `tau_m`.
-    pub fn step(&mut self, q: Real, f_h: Real, tau_m: Real) -> ServoTick {
-        let Self { settings, rule, .. } = *self;
-        let T = settings.T;
-        let dq = self.motion.dq(q, 1.0, &self.sampling);
-        self.motion = Motion::at(q, dq);
-        let e = self.q_n.map_or(0.0, |q_n| rule.spring.slipped(q_n - q));
-        let (q_n, v_n) = (q + e, self.v_n);
-        self.settle(q, e, tau_m);
-
-        let tau_m = if self.q_n.is_some() { tau_m } else { 0.0 };
-        let sample = Sample {
-            e,
-            v_n,
-            dq,
-            f_h,
-            damping: 0.0,
-        };
-        let y = tau_m / rule.gains.K;
-        let v_m = rule.driven(&sample, y);
-        let saturated = real::abs(tau_m) >= rule.gains.f_max;
-        let mut v_next = midpoint::end(&sample, v_m);
-        if saturated && settings.law.row().slips() {
-            v_next = slower(v_next, rule.at_the_bound(&sample, y));
+    /// One tick out of the loop at positions `q` (m), with `tau_m` (N) as in [`tick`](Self::tick): the drives are told to stand
+    /// still there, and what they do meanwhile is booked. The stored energy is given up; the next tick engages anew. Returns
+    /// whether the motion since the last tick exceeded the reach.
+    ///
+    /// # Errors
+    /// `accept` says no to the energy G (J): the law is as it was.
+    pub fn rest(
+        &mut self,
+        q: &SVector<Real, N>,
+        tau_m: &SVector<Real, N>,
+        accept: impl FnOnce(Real) -> bool,
+    ) -> Result<bool, Refused> {
+        let ledger = self.measured(tau_m);
+        let settlement = ledger.close(0.0, q);
+        if !accept(settlement.G()) {
+            return Err(Refused);
         }
-        self.v_n = floored(v_next);
-        self.q_n = Some(q_n + T * v_m);
-        self.energy.supplied = rule.supplied(&sample, v_m);
-        ServoTick {
-            q_d: q_n + T * v_m / 2.0,
-            dq_d: v_m,
-            q_n,
-            dq_n: v_n,
-            e_nr: e,
-            dq,
-            saturated,
-        }
+        Ok(self.leave(ledger, &settlement, Some(q), tau_m))
     }
 
-    /// One tick out of the loop at position `q` (m), with `tau_m` (N) as in [`step`](Self::step): the drive is told to
-    /// stand still there, and what it does meanwhile is booked. The stored energy is given up; the next step engages anew.
-    pub fn rest(&mut self, q: Real, tau_m: Real) -> ServoTick {
-        (self.q_n, self.v_n, self.motion) = (None, 0.0, Motion::default());
-        self.settle(q, 0.0, tau_m);
-        self.energy.supplied = 0.0;
-        ServoTick {
-            q_d: q,
-            dq_d: 0.0,
-            q_n: q,
-            dq_n: 0.0,
-            e_nr: 0.0,
-            dq: 0.0,
-            saturated: false,
+    /// The same where the positions at this tick are not known, or no numbers: the tank pays for the most that the forces
+    /// `tau_m` (N) can have done since the last one.
+    pub fn abandon(&mut self, tau_m: &SVector<Real, N>) -> bool {
+        let ledger = self.measured(tau_m);
+        let settlement = ledger.close_unseen();
+        self.leave(ledger, &settlement, None, tau_m)
+    }
+
+    fn leave(
+        &mut self,
+        ledger: Ledger<N>,
+        ended: &Settlement<N>,
+        q: Option<&SVector<Real, N>>,
+        tau_m: &SVector<Real, N>,
+    ) -> bool {
+        self.law.rest();
+        self.feedback.rest();
+        self.book(ledger, ended, q, tau_m, Flow::default());
+        ended.is_outside()
+    }
+
+    /// The ledger, once it is known that the forces `tau_m` (N) acted in the sample that ends.
+    fn measured(&self, tau_m: &SVector<Real, N>) -> Ledger<N> {
+        let mut ledger = self.ledger;
+        if self.ticked {
+            ledger.acting = *tau_m;
         }
+        ledger
+    }
+
+    fn book(
+        &mut self,
+        mut ledger: Ledger<N>,
+        ended: &Settlement<N>,
+        q: Option<&SVector<Real, N>>,
+        tau_m: &SVector<Real, N>,
+        flow: Flow,
+    ) {
+        ledger.book(ended, q, &SVector::zeros(), flow);
+        self.ledger = ledger;
+        (self.tau_m, self.ticked) = (*tau_m, true);
+    }
+
+    /// The velocities (m/s) to which nominals are set back that move on with `v_m` (m/s) from where the `tick` shows them,
+    /// feel `felt` (N), and run ahead of a coupling at its limit. Whether any coupling is at its limit, the tick shows
+    /// from then on.
+    fn set_back(
+        &self,
+        felt: &SVector<Real, N>,
+        v_m: &SVector<Real, N>,
+        tick: &mut Tick<N>,
+    ) -> [Option<Real>; N] {
+        let slips = self.law.settings().law.row().slips();
+        let (drive, T) = (self.law.drive(), self.law.settings().T);
+        let mut set_back = [None; N];
+        for (i, set_back) in set_back.iter_mut().enumerate() {
+            let (K, K_P) = (drive.K[i], drive.K_P[i]);
+            let (tau_m, e) = (felt[i], tick.e_nr[i]);
+            let spring = K * K_P * real::abs(e);
+            let limited = real::abs(tau_m) >= drive.f_max[i]
+                || slips && spring >= drive.f_max[i] * (1.0 - ROUNDING);
+            tick.saturated |= limited;
+            let side = if tau_m < 0.0 { -1.0 } else { 1.0 };
+            let y_s = sat(tau_m, drive.f_max[i]) / K;
+            let lead = side * (y_s - K_P * e) / (1.0 + K_P * T / 2.0);
+            let v_b = tick.dq[i] + side * real::max(lead, 0.0);
+            let v_next = 2.0 * v_m[i] - tick.dq_n[i];
+            if limited && slips && side * (v_next - v_b) > 0.0 {
+                *set_back = Some(v_b);
+            }
+        }
+        set_back
+    }
+
+    /// Sample period, s.
+    pub fn T(&self) -> Real {
+        self.law.settings().T
+    }
+
+    /// Counts positions from a place that is further on by `by` (m).
+    pub fn count_from(&mut self, by: &SVector<Real, N>) {
+        self.ledger.count_from(by);
+    }
+
+    /// The law in its coordinates.
+    pub fn law(&self) -> &L {
+        &self.law
+    }
+
+    /// The law in its coordinates, to be bounded, or tuned in what is not the drives'.
+    pub fn law_mut(&mut self) -> &mut L {
+        &mut self.law
+    }
+
+    /// What the drives measured at the last tick, N.
+    pub fn tau_m(&self) -> &SVector<Real, N> {
+        &self.tau_m
+    }
+
+    /// What is wrong with what the drives measure.
+    pub fn feedback(&self) -> &Feedback<N> {
+        &self.feedback
     }
 
     /// Energy stored and created, as of the last tick.
-    pub fn energy(&self) -> &Energy {
-        &self.energy
+    pub fn ledger(&self) -> &Ledger<N> {
+        &self.ledger
     }
+}
 
-    /// Settles the sample that ends now with the extension `e` (m) and the torque `tau_m` (N) that acted in it.
-    fn settle(&mut self, q: Real, e: Real, tau_m: Real) {
-        if !self.is_energy_defined() {
-            return;
+/// Of a spring's force at the bound to which it has been cut.
+const ROUNDING: Real = 8.0 * Real::EPSILON;
+
+impl<const N: usize> Servo<Axes<N>, N> {
+    /// N axes, out of the loop.
+    ///
+    /// # Errors
+    /// The first parameter out of its range, or a law without a servo form.
+    pub fn new(
+        settings: Settings,
+        gains: [Gains; N],
+        reach: &Reach<N>,
+    ) -> Result<Self, ParameterError> {
+        if !settings.law.row().servo {
+            return Err(ParameterError::NoServoForm(settings.law));
         }
-        let E_0 = self.settings.E_0;
-        let H = self.rule.stored(e, self.v_n);
-        let last = self.energy;
-        let delta_q = last.q.map_or(0.0, |last| q - last);
-        let created = H - last.H + tau_m * delta_q - last.supplied;
-        self.energy = Energy {
-            H,
-            G: last.G + created,
-            tank: real::min(last.tank - created, E_0),
-            q: Some(q),
-            ..last
-        };
+        Self::of(Axes::new(settings, gains)?, reach)
     }
 
-    /// alpha = 0 has no port (f_h ; K v_n/alpha), hence no storage.
-    fn is_energy_defined(&self) -> bool {
-        self.settings.alpha > 0.0
+    /// Within other bounds from the next tick on.
+    ///
+    /// # Errors
+    /// The first bound out of its range; the bounds stay as they were.
+    pub fn bound(&mut self, bounds: [Bounds; N]) -> Result<(), ParameterError> {
+        self.law.bound(bounds)
+    }
+
+    /// Another nominal mass and damping: on a straight line over the tuning time, each step taken over so that the stored
+    /// energy does not rise. The other gains are the drives' as well, which this law cannot change; `names` are those of K,
+    /// K_P and f_max in the message.
+    ///
+    /// # Errors
+    /// A gain out of its range, or a gain of the drives other than it was; all gains stay as they were.
+    pub fn tune(
+        &mut self,
+        gains: [Gains; N],
+        names: [&'static str; 3],
+    ) -> Result<(), ParameterError> {
+        for (axis, gains) in (1..).zip(&gains) {
+            gains.check((N > 1).then_some(axis))?;
+        }
+        self.law.drive().is_kept(&Drive::of(&gains), names)?;
+        self.law.tune(gains)
     }
 }

@@ -3,24 +3,97 @@
 
 mod robot;
 
-use admittance::{Gains, Law, Servo, Settings, servo};
-use nalgebra::SMatrix;
+use admittance::servo::{Command, Servo};
+use admittance::{Axes, Bounds, Gains, Law, Ledger, Reach, Request, Settings, servo};
+use nalgebra::{SMatrix, Vector1};
 use robot::{Mass, unlimited};
 
 const T: f64 = 0.002;
 const SUBSTEPS: u32 = 200;
 
-fn servo(law: Law, gains: Gains) -> Servo {
-    let settings = Settings {
-        law,
-        T,
-        ..Settings::default()
-    };
-    Servo::new(settings, gains).expect("valid parameters")
+/// One axis.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct OneServo(Servo<Axes<1>, 1>);
+
+impl OneServo {
+    fn step(&mut self, q: f64, f_h: f64, tau_m: f64) -> Shown {
+        self.tick(q, f_h, tau_m, &Request::default())
+    }
+
+    fn tick(&mut self, q: f64, f_h: f64, tau_m: f64, request: &Request<1>) -> Shown {
+        let [q, f_h, tau_m] = [q, f_h, tau_m].map(Vector1::new);
+        let mut shown = None;
+        let inputs = servo::Inputs {
+            place: &q,
+            q: &q,
+            f_h: &f_h,
+            tau_m: &tau_m,
+            request,
+            after: request.after,
+        };
+        let accept = |command: &Command<1>, _| {
+            shown = Some(Shown::from(command));
+            true
+        };
+        self.0.tick(&inputs, accept).expect("accepted");
+        shown.expect("a tick")
+    }
+
+    fn rest(&mut self, q: f64, tau_m: f64) -> Shown {
+        let (q, tau_m) = (Vector1::new(q), Vector1::new(tau_m));
+        self.0.rest(&q, &tau_m, |_| true).expect("accepted");
+        Shown::from(&Command::at_rest(&q))
+    }
+
+    fn ledger(&self) -> &Ledger<1> {
+        self.0.ledger()
+    }
+}
+
+/// What a tick shows, as numbers.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Shown {
+    q_d: f64,
+    dq_d: f64,
+    q_n: f64,
+    dq_n: f64,
+    e_nr: f64,
+    saturated: bool,
+    held: bool,
+}
+
+impl From<&Command<1>> for Shown {
+    fn from(Command { q_d, dq_d, tick }: &Command<1>) -> Self {
+        Self {
+            q_d: q_d.x,
+            dq_d: dq_d.x,
+            q_n: tick.q_n.x,
+            dq_n: tick.dq_n.x,
+            e_nr: tick.e_nr.x,
+            saturated: tick.saturated,
+            held: tick.held,
+        }
+    }
+}
+
+fn with(settings: Settings, gains: Gains) -> OneServo {
+    let reach = Reach::default();
+    OneServo(Servo::new(settings, [gains], &reach).expect("valid parameters"))
+}
+
+fn servo(law: Law, gains: Gains) -> OneServo {
+    with(
+        Settings {
+            law,
+            T,
+            ..Settings::default()
+        },
+        gains,
+    )
 }
 
 /// A drive with the law's own loop, nearly continuous, on a mass. Returns its mean force over the sample.
-fn drive(mass: &mut Mass, tick: &servo::ServoTick, gains: &Gains, f_h: f64) -> f64 {
+fn drive(mass: &mut Mass, tick: &Shown, gains: &Gains, f_h: f64) -> f64 {
     let mut mean = 0.0;
     for _ in 0..SUBSTEPS {
         let tau = gains.K * ((tick.dq_d - mass.dq) + gains.K_P * (tick.q_d - mass.q));
@@ -193,7 +266,7 @@ fn the_ledger_is_the_derived_balance() {
         let f_h = 4.0 * (0.02 * f64::from(k)).sin();
         let tick = law.step(q, f_h, tau_m);
         // Rounding: 500 terms of some 0.1 J.
-        G = law.energy().G;
+        G = law.ledger().G();
         assert!((G - expected).abs() < 1e-13, "{G} {expected}");
         let moved = 1e-3 * (0.05 * f64::from(k)).cos();
         let (v_m, w) = (tick.dq_d, tick.dq_d - moved / T);
@@ -215,7 +288,7 @@ fn bounded_slips_and_passive_is_refused() {
     for _ in 0..10_000 {
         let tick = law.step(0.3, 6.0, 12.5); // at a wall, the drive on its limit
         largest = largest.max(tick.e_nr);
-        assert!(law.energy().tank >= 10.0 - 1e-12); // rounding of 1e4 samples of some 1e-3 J
+        assert!(law.ledger().tank() >= 10.0 - 1e-12); // rounding of 1e4 samples of some 1e-3 J
     }
     assert!((largest - 12.5 / 300.0).abs() < 1e-15);
     // The reset: spring and drive are at their limit, so the nominal rests with the wall; without it v_n would go towards
@@ -227,7 +300,7 @@ fn bounded_slips_and_passive_is_refused() {
         ..Settings::default()
     };
     assert_eq!(
-        Servo::new(settings, gains)
+        Servo::new(settings, [gains], &Reach::default())
             .expect_err("no form")
             .to_string(),
         "law = 2 (passive) has no servo form: expected 1 (standard), 3 (passive_applied), 4 (passive_bounded)"
@@ -237,25 +310,51 @@ fn bounded_slips_and_passive_is_refused() {
 #[test]
 fn the_drives_gains_cannot_be_tuned_and_a_heavier_nominal_is_slowed() {
     let gains = unlimited(5.0, 0.5, 30.0, 10.0);
-    let mut law = servo(Law::PassiveApplied, gains);
+    let names = ["K", "K_P", "f_max"];
+    let at_once = Settings {
+        law: Law::PassiveApplied,
+        T,
+        tuning_time: 0.0,
+        ..Settings::default()
+    };
+    let mut law = with(at_once, gains);
     for _ in 0..100 {
         law.step(0.0, 3.0, 0.0);
     }
     let before = law;
     let refusal = law
-        .tune(Gains { K: 60.0, ..gains })
+        .0
+        .tune([Gains { K: 60.0, ..gains }], names)
         .expect_err("the drive's");
     assert_eq!(
         refusal.to_string(),
         "K = 60: expected the value at the start, in servo form the drive has it too"
     );
     assert_eq!(law, before);
-    law.tune(Gains { M_n: 20.0, ..gains })
-        .expect("the law's own");
+    let heavier = Gains { M_n: 20.0, ..gains };
+    law.0.tune([heavier], names).expect("the law's own");
     let (mut tuned, mut untuned) = (law, before);
     let (slow, fast) = (tuned.step(0.0, 0.0, 0.0), untuned.step(0.0, 0.0, 0.0));
     assert!((slow.dq_n / fast.dq_n - 0.5).abs() < 1e-15); // M_n v_n² is kept
-    assert!(tuned.energy().G <= untuned.energy().G + 1e-15);
+    assert!(tuned.ledger().G() <= untuned.ledger().G() + 1e-15);
+
+    // Over the tuning time it is slowed as much, in steps.
+    let slowly = Settings {
+        tuning_time: 0.1,
+        ..at_once
+    };
+    let mut law = with(slowly, gains);
+    for _ in 0..100 {
+        law.step(0.0, 3.0, 0.0);
+    }
+    let before = law.step(0.0, 0.0, 0.0).dq_n;
+    law.0.tune([heavier], names).expect("the law's own");
+    let after = (0..51)
+        .map(|_| law.step(0.0, 0.0, 0.0).dq_n)
+        .collect::<Vec<_>>();
+    let largest = after.windows(2).map(|v| v[0] - v[1]).fold(0.0, f64::max);
+    assert!((after[50] / before - 0.5).abs() < 0.01, "{after:?}"); // D_n takes 0.5 % in 0.1 s
+    assert!(largest < 0.05 * before);
 }
 
 #[test]
@@ -264,10 +363,158 @@ fn out_of_the_loop_the_drive_is_told_to_stand_still() {
     for k in 0..100 {
         law.step(1e-4 * f64::from(k), 3.0, 1.0);
     }
-    let stored = law.energy().H;
-    let G = law.energy().G;
+    let stored = law.ledger().H();
+    let G = law.ledger().G();
     let tick = law.rest(0.0099, 0.0);
     assert_eq!((tick.q_d, tick.dq_d, tick.e_nr), (0.0099, 0.0, 0.0));
-    assert!(stored > 0.0 && law.energy().H == 0.0 && law.energy().G < G);
+    assert!(stored > 0.0 && law.ledger().H() == 0.0 && law.ledger().G() < G);
     assert_eq!(law.step(0.02, 0.0, 5.0).q_n, 0.02);
+}
+
+/// The robot at a wall, pressed for 3 s and pulled from then on, by a drive with `gains`; returns the time from the pull to
+/// 1 mm off the wall (s), with what the law says of the drive.
+fn off_the_wall(gains: Gains, measured: impl Fn(f64) -> f64) -> (Option<f64>, i32) {
+    let bounded = Gains {
+        f_max: 12.5,
+        ..unlimited(5.0, 0.5, 30.0, 10.0)
+    };
+    let mut law = servo(Law::PassiveBounded, bounded);
+    let mut mass = Mass::new(6.0);
+    let (mut tau_m, mut fault) = (0.0, 0);
+    for k in 0..10_000 {
+        let f_h = if k < 1500 { 5.0 } else { -5.0 };
+        let tick = law.step(mass.q, f_h, measured(tau_m));
+        fault = law.0.feedback().number();
+        tau_m = drive(&mut mass, &tick, &gains, f_h);
+        if mass.q > 0.0 {
+            (mass.q, mass.dq) = (0.0, 0.0); // an inelastic wall
+        }
+        if k >= 1500 && mass.q < -1e-3 {
+            return (Some(f64::from(k - 1500) * T), fault);
+        }
+    }
+    (None, fault)
+}
+
+#[test]
+fn a_drive_that_is_not_quite_the_law_lets_go_of_a_wall_all_the_same() {
+    let exact = Gains {
+        f_max: 12.5,
+        ..unlimited(5.0, 0.5, 30.0, 10.0)
+    };
+    let (release, _) = off_the_wall(exact, |tau| tau);
+    let release = release.expect("an exact drive lets go");
+    assert!((0.1..0.5).contains(&release), "{release}");
+    for off in [-0.1, -0.03, -0.01, -0.003, 0.003, 0.01, 0.03, 0.1] {
+        let part = 1.0 + off;
+        let drives = [
+            Gains {
+                K: 30.0 * part,
+                ..exact
+            },
+            Gains {
+                K_P: 10.0 * part,
+                ..exact
+            },
+            Gains {
+                f_max: 12.5 * part,
+                ..exact
+            },
+        ];
+        for gains in drives {
+            let (time, fault) = off_the_wall(gains, |tau| tau);
+            let time = time.unwrap_or(f64::INFINITY);
+            assert!(
+                (time - release).abs() < 0.1 * release,
+                "{gains:?}: {time}, {release}"
+            );
+            assert_eq!(fault, 0, "{gains:?}");
+        }
+        let (time, fault) = off_the_wall(exact, |tau| tau * part);
+        let time = time.unwrap_or(f64::INFINITY);
+        assert!(
+            (time - release).abs() < 0.1 * release,
+            "measured × {part}: {time}, {release}"
+        );
+        assert_eq!(fault, 0);
+    }
+}
+
+#[test]
+fn a_measured_force_that_is_missing_or_has_the_wrong_sign_is_named() {
+    let exact = Gains {
+        f_max: 12.5,
+        ..unlimited(5.0, 0.5, 30.0, 10.0)
+    };
+    assert_eq!(off_the_wall(exact, |_| 0.0).1, 1);
+    assert_eq!(off_the_wall(exact, |tau| -tau).1, 2);
+    assert_eq!(off_the_wall(exact, |tau| 0.1 * tau).1, 1);
+    // A drive that is switched off while the law runs: it gives nothing, and says so.
+    let off = Gains {
+        f_max: 1e-9,
+        ..exact
+    };
+    assert_eq!(off_the_wall(off, |tau| tau).1, 1);
+}
+
+#[test]
+fn limits_of_the_nominal_are_kept_in_what_the_drive_is_told() {
+    let gains = unlimited(5.0, 0.5, 300.0, 10.0);
+    let mut law = servo(Law::PassiveBounded, gains);
+    let bounds = Bounds {
+        speed: 0.2,
+        q_min: -1.0,
+        q_max: 0.1,
+    };
+    law.0.bound([bounds]).expect("a box");
+    let mut mass = Mass::new(6.0);
+    let (mut tau_m, mut fastest, mut furthest, mut held) = (0.0, 0.0_f64, 0.0_f64, false);
+    for _ in 0..2000 {
+        let tick = law.step(mass.q, 20.0, tau_m);
+        fastest = fastest.max(tick.dq_d.abs());
+        furthest = furthest.max(tick.q_d);
+        held |= tick.held;
+        tau_m = drive(&mut mass, &tick, &gains, 20.0);
+    }
+    assert!(held && fastest <= 0.2 && fastest > 0.19, "{fastest}");
+    assert!(furthest <= 0.1 + 1e-15 && furthest > 0.0999, "{furthest}");
+    assert!(law.ledger().tank() >= 10.0 - 1e-12); // bounds only take
+    // And it holds: the command stands still, whoever pushes.
+    let hold = Request {
+        hold: true,
+        ..Request::default()
+    };
+    let told = law.tick(mass.q, -30.0, tau_m, &hold);
+    assert_eq!((told.dq_d, told.held), (0.0, true));
+}
+
+/// In debt the drive is told to stand still, and the human's work on the nominal repays: with a robot that stands still,
+/// (K/alpha) f_h² T/(2 M_n/T + D_n) a sample.
+#[test]
+fn a_debt_has_the_drive_stand_still_and_the_hand_repays_it() {
+    let gains = Gains {
+        f_max: 12.5,
+        ..unlimited(5.0, 0.5, 30.0, 10.0)
+    };
+    let settings = Settings {
+        E_0: 0.0,
+        T,
+        ..Settings::default()
+    };
+    let mut law = with(settings, gains);
+    law.step(0.0, 0.0, 0.0);
+    // The drive pushes 12.5 N over 0.1 mm, for which nobody has paid.
+    let told = law.step(1e-4, 3.0, 12.5);
+    assert!(law.ledger().is_in_debt());
+    assert!((law.ledger().tank() + 12.5e-4).abs() < 1e-15);
+    assert_eq!((told.q_d, told.dq_d), (1e-4, 0.0));
+    let (mut debt, mut ticks) = (12.5e-4, 0);
+    while law.ledger().is_in_debt() {
+        law.step(1e-4, 3.0, 0.0);
+        debt -= 30.0 * 9.0 * T / (2.0 * 5.0 / T + 0.5);
+        ticks += 1;
+        assert!((law.ledger().tank() + debt).abs() < 1e-12 || debt < 0.0);
+    }
+    assert_eq!(ticks, 12); // 1.25 mJ at .108 mJ a sample
+    assert!(law.step(1e-4, 3.0, 0.0).dq_d > 0.0);
 }

@@ -2,8 +2,10 @@
 
 use crate::ArmController;
 use admittance::encoder;
+use admittance::servo;
 use admittance::timing::{self, IN_TIME};
 use arm_law::arm_law::NotFinite;
+use arm_law::choices::TORQUE;
 use arm_law::{ArmInputs, ArmLaw, ArmParameters};
 use export::{Clock, Log, Model, Refusal, Sample, Sampler, Step};
 
@@ -56,6 +58,7 @@ impl Model for ArmController {
             return Ok(());
         };
         let before = self.outputs.encoder_fault;
+        let drive = self.outputs.drive_fault;
         if let Err(NotFinite) = arm_law.tick_after(after, &self.inputs, &mut self.outputs) {
             return Err(self.overflow(&format!("tick {number}")));
         }
@@ -63,6 +66,10 @@ impl Model for ArmController {
         if ![0, before].contains(&fault) {
             let q = self.inputs.q;
             log.warning(format_args!("{}; q = {q:?} rad", encoder::message(fault)));
+        }
+        let fault = self.outputs.drive_fault;
+        if ![0, drive].contains(&fault) {
+            log.warning(format_args!("{}", servo::message(fault)));
         }
         if self.outputs.timing != IN_TIME && !self.told {
             self.told = true;
@@ -111,9 +118,18 @@ impl ArmController {
 
     #[cold]
     fn overflow(&self, when: &str) -> Refusal {
-        let ArmInputs { q, f_h, .. } = self.inputs;
-        Refusal(format!(
+        let ArmInputs {
+            q,
+            f_h,
+            tau_a_measured,
+            ..
+        } = self.inputs;
+        let mut message = format!(
             "{when}: the law's result is not finite with q = {q:?} rad and f_h = {f_h:?} N"
-        ))
+        );
+        if self.parameters.form != TORQUE {
+            message += &format!(" and tau_a_measured = {tau_a_measured:?} N·m");
+        }
+        Refusal(message)
     }
 }

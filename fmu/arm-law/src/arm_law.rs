@@ -8,9 +8,10 @@ mod show;
 
 use show::Ran;
 
+use crate::choices::POSITION_SERVO;
 use crate::choices::WRENCH;
 use crate::displacement::Origin;
-use crate::joint_space::JointSpace;
+use crate::joint_space::{JointServo, JointSpace};
 use crate::kinematics::{Kinematics, Pose, sin_cos};
 use crate::parameters::{ArmParameters, Checked};
 use crate::signals::{ArmInputs, ArmOutputs};
@@ -84,6 +85,9 @@ impl ArmLaw {
                 Space::Task => {
                     InSpace::Task(TaskSpace::new(settings, gains, bounds, reach, limits)?)
                 }
+                Space::Joint if parameters.form == POSITION_SERVO => InSpace::Servo(
+                    JointServo::new(settings, &joint, kinematics, reach, limits.tau_max)?,
+                ),
                 Space::Joint => InSpace::Joint(JointSpace::new(
                     settings, &joint, kinematics, reach, limits,
                 )?),
@@ -121,7 +125,7 @@ impl ArmLaw {
     pub fn count_from(&mut self, q_0: &Vector3<Real>) -> Result<(), ParameterError> {
         let task_space = match &mut self.law {
             InSpace::Task(law) => law,
-            InSpace::Joint(_) => return Ok(()),
+            InSpace::Joint(_) | InSpace::Servo(_) => return Ok(()),
         };
         let origin = Origin::new(&self.kinematics, q_0);
         let mut bounds = self.bounds;
@@ -170,6 +174,42 @@ impl ArmLaw {
     /// # Errors
     /// Those of [`tick`](Self::tick).
     pub fn tick_after(
+        &mut self,
+        after: Real,
+        inputs: &ArmInputs,
+        outputs: &mut ArmOutputs,
+    ) -> Result<(), NotFinite> {
+        if let InSpace::Servo(_) = self.law {
+            self.tick_driven(after, inputs, outputs)
+        } else {
+            self.tick_reading(after, inputs, outputs)
+        }
+    }
+
+    /// The same in servo form: the drives' torques are measured, and they are told what to do.
+    #[cold]
+    fn tick_driven(
+        &mut self,
+        after: Real,
+        inputs: &ArmInputs,
+        outputs: &mut ArmOutputs,
+    ) -> Result<(), NotFinite> {
+        let mut law = *self;
+        if let InSpace::Servo(joints) = &mut law.law {
+            joints.measure(inputs.tau_a_measured.into());
+        }
+        law.tick_reading(after, inputs, outputs)?;
+        if let InSpace::Servo(joints) = &law.law {
+            let [q_d, dq_d] = joints.told();
+            outputs.q_d = q_d.map(f64::from).into();
+            outputs.dq_d = (*dq_d).into();
+            outputs.drive_fault = joints.feedback().number();
+        }
+        *self = law;
+        Ok(())
+    }
+
+    fn tick_reading(
         &mut self,
         after: Real,
         inputs: &ArmInputs,
@@ -282,7 +322,7 @@ impl ArmLaw {
     fn may_engage(&self, inputs: &ArmInputs) -> bool {
         match self.law {
             InSpace::Task(_) => inputs.engage != 0,
-            InSpace::Joint(_) => false,
+            InSpace::Joint(_) | InSpace::Servo(_) => false,
         }
     }
 

@@ -4,6 +4,8 @@ use crate::supervision::{Diagnostic, State};
 use declaration::{Enumeration, Item, choices};
 
 pub use admittance::encoder::FAULT as ENCODER_FAULT;
+pub use admittance::one_axis::form::{FORM, POSITION_SERVO, TORQUE};
+pub use admittance::servo::FAULT as DRIVE_FAULT;
 
 choices! { TORQUE_LIMITING "TorqueLimiting" "How joint torques beyond tau_max are brought within":
     1 "scale" "all joints by one factor; the force at the handle keeps its direction";
@@ -60,7 +62,7 @@ pub const STATE: Enumeration = Enumeration {
         state(State::Hold, "the law runs with its nominal standing still"),
         state(State::SoftStop, "the nominal stands still and the authority falls to 0"),
         state(State::Fault, "waits for an acknowledgement, no torque"),
-        Item::new(DEBT, "debt", "engaged or hold, but the tank is below 0: no torque until it is repaid"),
+        Item::new(DEBT, "debt", "engaged or hold, but the tank is below 0: no torque, or drives that stand still, until it is repaid"),
     ],
 };
 

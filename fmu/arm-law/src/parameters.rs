@@ -1,6 +1,6 @@
 //! What the law of the arm is built from: parameters of ArmController.fmu and of the C library, one row each.
 
-use crate::choices::{JOINT, SPACE, TORQUE_LIMITING};
+use crate::choices::{FORM, JOINT, POSITION_SERVO, SPACE, TORQUE, TORQUE_LIMITING};
 use crate::encoders::EncoderParameters;
 use crate::joint_space::{self, JointGains, JointParameters};
 use crate::kinematics::Kinematics;
@@ -122,6 +122,9 @@ pub struct ArmParameters {
     /// Its nominal arm.
     #[part]
     pub nominal: NominalArm,
+    /// What the robot gets from the controller.
+    #[parameter(151, items = FORM, start = TORQUE)]
+    pub form: i32,
 }
 
 /// The law's parts, made of parameters that have been checked.
@@ -154,6 +157,9 @@ impl ArmParameters {
         in_range(self)?;
         let limits = self.limits();
         let settings = self.settings()?;
+        if self.form == POSITION_SERVO {
+            self.check_servo(settings.law)?;
+        }
         limits.check_under(settings.law)?;
         self.supervisor.check()?;
         self.nominal.check()?;
@@ -184,6 +190,31 @@ impl ArmParameters {
             },
             supervision: (self.supervision != 0).then_some(self.supervisor),
         })
+    }
+
+    /// A drive closes the coupling of its joint, with gains of its own, and its torque is not the law's to limit.
+    fn check_servo(&self, law: Law) -> Result<(), ParameterError> {
+        if self.space != JOINT {
+            let expected = "2 (joint) in servo form: drives close the joints' couplings, not those at the handle";
+            let space = self.space as Real; // a small number: exact also in single precision
+            return Err(ParameterError::of("space", None, space, expected));
+        }
+        for (joint, rate) in (1..).zip(&self.tau_rate_max) {
+            if *rate != 0.0 {
+                let expected = "no limit, which the torque form alone keeps";
+                return Err(ParameterError::of(
+                    "tau_rate_max",
+                    Some(joint),
+                    *rate,
+                    expected,
+                ));
+            }
+        }
+        if law.row().servo || !law.row().offered {
+            Ok(())
+        } else {
+            Err(ParameterError::NoServoForm(law))
+        }
     }
 
     /// The gains at the handle and of the joints.

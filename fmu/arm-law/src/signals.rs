@@ -1,7 +1,9 @@
 //! What goes into a tick of the arm's law and what comes out of it: inputs and outputs of ArmController.fmu and of the C
 //! library, one row each.
 
-use crate::choices::{DIAGNOSTIC, ENCODER_FAULT, FAULT, STATE, TARE_FAILURE, TARE_STATE};
+use crate::choices::{
+    DIAGNOSTIC, DRIVE_FAULT, ENCODER_FAULT, FAULT, STATE, TARE_FAILURE, TARE_STATE,
+};
 use admittance::Real;
 use admittance::timing::TIMING;
 use declaration::{Rows, Start};
@@ -57,6 +59,10 @@ pub struct ArmInputs {
     /// acknowledged, without it until q is valid again, where the law engages anew.
     #[input(102, boolean, start = 1)]
     pub encoder_valid: i32,
+    /// Measured torques of the drives on the joints, means over the sample that ended; the nominal feels them in the servo form,
+    /// they are not used in the torque form.
+    #[input(152, unit = NEWTON_METRE)]
+    pub tau_a_measured: [Real; 3],
 }
 
 /// What came of a tick; every value is the one at t_k, vectors at the handle in the base frame.
@@ -193,6 +199,17 @@ pub struct ArmOutputs {
     /// By how much the tool is heavier than ft.mass, as far as the last warning tool_weight could tell; 0 before the first.
     #[output(196, name = "ft.mass_error", unit = KILOGRAM)]
     pub ft_mass_error: Real,
+    /// What is wrong with tau_a_measured, beside the torques that drives with the law's gains would have given: judged where
+    /// one has been above a tenth of tau_max over .2 s; 0 in the torque form.
+    #[output(150, name = "drive.fault", items = DRIVE_FAULT)]
+    pub drive_fault: i32,
+    /// Angles for the joints' drives in the sample that begins, held: the nominal's in the middle of that sample; 0 in the
+    /// torque form.
+    #[output(153, unit = RADIAN, from = ["q[i]", "form"])]
+    pub q_d: [f64; 3],
+    /// Velocities for the joints' drives in the sample that begins: the nominal's means in that sample; 0 in the torque form.
+    #[output(154, unit = RADIAN_PER_SECOND)]
+    pub dq_d: [Real; 3],
 }
 
 /// What the outputs that show the handle depend on after initialization.

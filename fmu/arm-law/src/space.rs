@@ -1,7 +1,7 @@
 //! The coordinates in which the nominal lives, and the law in them.
 
 use crate::handle::{HandleTick, NotFinite};
-use crate::joint_space::{JointGains, JointSpace, Nominal};
+use crate::joint_space::{JointGains, JointServo, JointSpace, Nominal};
 use crate::kinematics::Pose;
 use crate::task_space::TaskSpace;
 use admittance::{Gains, Ledger, ParameterError, Real, Request};
@@ -27,6 +27,8 @@ pub enum Space {
 pub(crate) enum InSpace {
     Task(TaskSpace),
     Joint(JointSpace),
+    /// joint space, for drives that take positions
+    Servo(JointServo),
 }
 
 impl InSpace {
@@ -34,7 +36,7 @@ impl InSpace {
     pub fn tune(&mut self, gains: [Gains; 3]) -> Result<(), ParameterError> {
         match self {
             Self::Task(law) => law.tune(gains),
-            Self::Joint(_) => (1..)
+            Self::Joint(_) | Self::Servo(_) => (1..)
                 .zip(&gains)
                 .try_for_each(|(axis, gains)| gains.check(Some(axis))),
         }
@@ -45,6 +47,7 @@ impl InSpace {
         match self {
             Self::Task(_) => gains.check(),
             Self::Joint(law) => law.tune(gains),
+            Self::Servo(law) => law.tune(gains),
         }
     }
 
@@ -52,7 +55,7 @@ impl InSpace {
     pub const fn knows_singularities(&self) -> bool {
         match self {
             Self::Task(_) => true,
-            Self::Joint(_) => false,
+            Self::Joint(_) | Self::Servo(_) => false,
         }
     }
 
@@ -73,6 +76,7 @@ impl InSpace {
                 law.step(pose, q, f_h, request, shown)
             }
             Self::Joint(law) => law.step(pose, q, f_h, request, shown, nominal),
+            Self::Servo(law) => law.step(pose, q, f_h, request, shown, nominal),
         }
     }
 
@@ -90,6 +94,7 @@ impl InSpace {
                 law.rest(pose, q, shown)
             }
             Self::Joint(law) => law.rest(pose, q, shown, nominal),
+            Self::Servo(law) => law.rest(pose, q, shown, nominal),
         }
     }
 
@@ -107,6 +112,7 @@ impl InSpace {
                 law.abandon(pose, shown);
             }
             Self::Joint(law) => law.abandon(pose, q, shown, nominal),
+            Self::Servo(law) => law.abandon(pose, q, shown, nominal),
         }
     }
 
@@ -118,7 +124,7 @@ impl InSpace {
     ) -> &'a Vector3<Real> {
         match self {
             Self::Task(_) => &shown.dp_n,
-            Self::Joint(_) => &nominal.dq_n,
+            Self::Joint(_) | Self::Servo(_) => &nominal.dq_n,
         }
     }
 
@@ -127,6 +133,7 @@ impl InSpace {
         match self {
             Self::Task(law) => law.T(),
             Self::Joint(law) => law.T(),
+            Self::Servo(law) => law.T(),
         }
     }
 
@@ -135,6 +142,7 @@ impl InSpace {
         match self {
             Self::Task(law) => law.lag(part),
             Self::Joint(law) => law.lag(part),
+            Self::Servo(_) => {} // the torque is measured as it acts
         }
     }
 
@@ -143,6 +151,7 @@ impl InSpace {
         match self {
             Self::Task(law) => law.acts(q),
             Self::Joint(law) => law.acts(q),
+            Self::Servo(_) => {}
         }
     }
 
@@ -151,6 +160,7 @@ impl InSpace {
         match self {
             Self::Task(law) => law.tau(),
             Self::Joint(law) => law.tau(),
+            Self::Servo(law) => law.tau(),
         }
     }
 
@@ -159,6 +169,7 @@ impl InSpace {
         match self {
             Self::Task(law) => law.ledger(),
             Self::Joint(law) => law.ledger(),
+            Self::Servo(law) => law.ledger(),
         }
     }
 }

@@ -24,11 +24,12 @@ unsafe impl Storage for ArmState {
 }
 const _: () = assert!(fits::<ArmState>());
 
-/// What a tick that is refused leaves at 0.
-const TORQUES: [Range<usize>; 3] = [
+/// What a tick that is refused leaves at 0: the torques, and the velocities that drives are told.
+const TORQUES: [Range<usize>; 4] = [
     field(offset_of!(ArmOutputs, tau_a)),
     field(offset_of!(ArmOutputs, f_a)),
     field(offset_of!(ArmOutputs, tau_demand)),
+    field(offset_of!(ArmOutputs, dq_d)),
 ];
 
 const fn field(offset: usize) -> Range<usize> {
@@ -76,8 +77,8 @@ pub extern "C" fn exo_arm_tune(
     })
 }
 
-/// One tick, every T. Where the status is not 0, `state` stays as it was and `outputs` hold no torque: tau_a, f_a and tau_demand
-/// are 0, the others as they were. The robot is then the caller's: brakes, or whatever needs no law. `refusal`, which may
+/// One tick, every T. Where the status is not 0, `state` stays as it was and `outputs` hold no torque: tau_a, f_a, tau_demand
+/// and dq_d are 0, the others as they were; drives so stand still at the last q_d. The robot is then the caller's: brakes, or whatever needs no law. `refusal`, which may
 /// be null, says which input was refused.
 #[unsafe(no_mangle)]
 pub extern "C" fn exo_arm_tick(
@@ -133,5 +134,7 @@ pub extern "C" fn exo_arm_variable(i: usize, variable: *mut Variable) -> Status 
 
 /// Why the result of a tick is not finite.
 fn why_not_finite(inputs: &ArmInputs) -> Cause {
-    Bad::sensed("q", &inputs.q.map(|q| q as Real)).map_or(Status::NotFinite.into(), Cause::from)
+    Bad::sensed("q", &inputs.q.map(|q| q as Real))
+        .or(Bad::sensed("tau_a_measured", &inputs.tau_a_measured))
+        .map_or(Status::NotFinite.into(), Cause::from)
 }

@@ -1,4 +1,4 @@
-//! One axis: the law of TestbedController.fmu in torque form, for the four laws of the paper's family.
+//! One axis: the law of TestbedController.fmu, for the four laws of the paper's family, in both forms.
 
 use crate::Real;
 use crate::pointer::{self, Cause, Place, initialize, read, refusing, with_law, zero};
@@ -23,10 +23,11 @@ unsafe impl Storage for AxisState {
 }
 const _: () = assert!(fits::<AxisState>());
 
-/// What a tick that is refused leaves at 0.
-const TORQUES: [Range<usize>; 2] = [
+/// What a tick that is refused leaves at 0: the force, and the velocity that a drive is told.
+const TORQUES: [Range<usize>; 3] = [
     field(offset_of!(AxisOutputs, tau_a)),
     field(offset_of!(AxisOutputs, tau_demand)),
+    field(offset_of!(AxisOutputs, dq_d)),
 ];
 
 const fn field(offset: usize) -> Range<usize> {
@@ -74,8 +75,8 @@ pub extern "C" fn exo_axis_tune(
     })
 }
 
-/// One tick, every T. Where the status is not 0, `state` stays as it was and `outputs` hold no torque: tau_a and tau_demand
-/// are 0, the others as they were. The robot is then the caller's: brakes, or whatever needs no law. `refusal`, which may
+/// One tick, every T. Where the status is not 0, `state` stays as it was and `outputs` hold no torque: tau_a, tau_demand and
+/// dq_d are 0, the others as they were; a drive so stands still at the last q_d. The robot is then the caller's: brakes, or whatever needs no law. `refusal`, which may
 /// be null, says which input was refused.
 #[unsafe(no_mangle)]
 pub extern "C" fn exo_axis_tick(
@@ -133,5 +134,6 @@ pub extern "C" fn exo_axis_variable(i: usize, variable: *mut Variable) -> Status
 fn why_not_finite(inputs: &AxisInputs) -> Cause {
     Bad::sensed("q", &[inputs.q as Real])
         .or(Bad::sensed("tau_h", &[inputs.tau_h]))
+        .or(Bad::sensed("tau_a_measured", &[inputs.tau_a_measured]))
         .map_or(Status::NotFinite.into(), Cause::from)
 }

@@ -6,7 +6,7 @@
 //! | module | what |
 //! |---|---|
 //! | [`arm`] | `exo_arm_*`: the law of ArmController.fmu |
-//! | [`axis`] | `exo_axis_*`: one axis, the law of TestbedController.fmu in torque form |
+//! | [`axis`] | `exo_axis_*`: one axis, the law of TestbedController.fmu without its comparators |
 //! | [`refusal`] | status, and which value was refused |
 //! | [`storage`] | memory that the caller provides for a law |
 //! | [`variable`] | the structs' variables by name |

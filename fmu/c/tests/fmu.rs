@@ -3,15 +3,18 @@
 
 #![allow(non_snake_case, reason = "the paper's symbols")]
 
+use admittance::one_axis::{AxisOutputs, AxisParameters};
 use arm_controller::ArmController;
 use arm_law::{ArmOutputs, ArmParameters};
 use counting::Counting;
-use declaration::{Access, Rows as _};
+use declaration::{Access, Rows};
 use exo_law::arm::{ArmState, exo_arm_init, exo_arm_tick, exo_arm_tune};
+use exo_law::axis::{AxisState, exo_axis_init, exo_axis_tick};
 use exo_law::refusal::Status;
 use export::{Log, Model, Step};
 use std::mem::MaybeUninit;
 use std::ptr::null_mut;
+use testbed_controller::TestbedController;
 
 #[global_allocator]
 static ALLOCATOR: Counting = Counting;
@@ -64,7 +67,7 @@ impl Pair {
         self.allocations += n;
         assert_eq!(status, Status::Ok);
         assert_eq!(
-            bits(&self.outputs),
+            bits(&*self.outputs),
             bits(&self.fmu.outputs),
             "tick {}",
             self.k
@@ -84,9 +87,9 @@ impl Pair {
 }
 
 /// Everything that a tick shows, as bits.
-fn bits(outputs: &ArmOutputs) -> Vec<u64> {
+fn bits<O: Rows>(outputs: &O) -> Vec<u64> {
     let mut bits = Vec::new();
-    for row in ArmOutputs::ROWS {
+    for row in O::ROWS {
         match &row.access {
             Access::Real { at, .. } => bits.extend(at.values(outputs).map(f64::to_bits)),
             Access::Boolean { at } => bits.extend(at.values(outputs).map(u64::from)),
@@ -197,4 +200,72 @@ fn the_joint_space_form_is_the_FMUs_bit_for_bit() {
     }
     assert!(pair.outputs.dq_n != [0.0; 3]);
     assert_eq!(pair.allocations, 0);
+}
+
+#[test]
+fn the_arm_in_servo_form_is_the_FMUs_bit_for_bit() {
+    let parameters = ArmParameters {
+        space: 2,
+        form: 2,
+        ..ArmParameters::default()
+    };
+    let mut pair = Pair::new(&parameters);
+    let mut faults = std::collections::BTreeSet::new();
+    for k in 0..8_000 {
+        moved(&mut pair.fmu, k);
+        let t = f64::from(k) * T;
+        let tau = [
+            20.0 * wave(0.8 * t),
+            170.0 * wave(0.5 * t),
+            -9.0 * wave(2.0 * t),
+        ];
+        pair.fmu.inputs.tau_a_measured = if k < 6_000 { tau } else { [0.0; 3] };
+        pair.fmu.inputs.engage = (!(3_000..3_050).contains(&k)).into();
+        pair.fmu.inputs.hold = (4_000..4_400).contains(&k).into();
+        if k == 5_000 {
+            pair.tune(|p| p.joint.D_n = [8.0; 3]);
+        }
+        pair.tick();
+        faults.insert(pair.outputs.drive_fault);
+    }
+    assert!(pair.outputs.q_d[1] != 0.0 && pair.outputs.dq_d[1] != 0.0);
+    assert!(faults.len() > 1, "{faults:?}");
+    assert_eq!(pair.allocations, 0);
+}
+
+#[test]
+fn one_axis_is_the_FMUs_bit_for_bit_in_both_forms() {
+    for form in [1, 2] {
+        let parameters = AxisParameters {
+            form,
+            ..AxisParameters::default()
+        };
+        let mut fmu = TestbedController::default();
+        fmu.parameters = parameters;
+        fmu.initialize(0.0, &mut Log::silent()).expect("accepted");
+        let mut state: Box<AxisState> = memory();
+        assert_eq!(
+            exo_axis_init(&mut *state, &parameters, null_mut()),
+            Status::Ok
+        );
+        let mut outputs: Box<AxisOutputs> = memory();
+        let mut saturated = 0;
+        for k in 0..5_000_u32 {
+            let t = f64::from(k) * 0.002;
+            fmu.inputs.q = 0.2 * wave(0.9 * t);
+            fmu.inputs.tau_h = 6.0 * wave(0.4 * t);
+            fmu.inputs.tau_a_measured = 13.0 * wave(1.3 * t);
+            fmu.inputs.engage = (!(3_000..3_050).contains(&k)).into();
+            fmu.inputs.hold = (4_000..4_200).contains(&k).into();
+            fmu.step(Step::at(t, 0.002), &mut Log::silent())
+                .expect("a step");
+            let (n, status) = counting::allocations(|| {
+                exo_axis_tick(&mut *state, &fmu.inputs, &mut *outputs, null_mut())
+            });
+            assert_eq!((n, status), (0, Status::Ok));
+            assert_eq!(bits(&*outputs), bits(&fmu.outputs), "form {form}, tick {k}");
+            saturated += outputs.saturated;
+        }
+        assert!(saturated > 100, "{saturated}");
+    }
 }

@@ -132,8 +132,8 @@ fn one_axis_starts_with_the_values_of_its_FMU() {
             ),
         ],
     );
-    // The servo form and the comparators are the FMU's alone.
-    let without = ["form", "tau_a_measured", "comparator.M", "comparator.H"];
+    // The comparators are the FMU's alone.
+    let without = ["comparator.M", "comparator.H"];
     equal(&library, &of_the_fmu::<TestbedController>(), &without);
 }
 

@@ -1,8 +1,8 @@
 //! One of the controllers that the model offers, behind one tick.
 
-use crate::rows::{Comparator, POSITION_SERVO};
+use crate::rows::Comparator;
 use admittance::one_axis::{AxisInputs, AxisOutputs, AxisParameters, Checked, NotFinite, OneAxis};
-use admittance::{Law, Natural, ParameterError, Servo, SlidingMode, comparator, servo};
+use admittance::{Law, Natural, ParameterError, SlidingMode, comparator};
 use serde::{Deserialize, Serialize};
 
 /// The controller between two ticks.
@@ -12,23 +12,12 @@ use serde::{Deserialize, Serialize};
     reason = "one of them, once: a box would cost more than it saves"
 )]
 pub enum Controller {
-    /// One of the four laws, torque form.
+    /// One of the four laws, in either form.
     Law(OneAxis),
-    /// One of the laws, servo form.
-    Servo(Servo),
     /// The comparator `natural`.
     Natural(Natural),
     /// The comparator `sliding_mode`.
     SlidingMode(SlidingMode),
-}
-
-/// The command of a drive.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Command {
-    /// Position, m.
-    pub q_d: f64,
-    /// Velocity, m/s.
-    pub dq_d: f64,
 }
 
 impl Controller {
@@ -38,21 +27,14 @@ impl Controller {
     /// The first parameter out of its range, or a law that does not exist in this form.
     pub fn new(
         parameters: &AxisParameters,
-        form: i32,
         comparator: &Comparator,
     ) -> Result<Self, ParameterError> {
         let Checked {
             settings, gains, ..
         } = parameters.checked()?;
         let row = settings.law.row();
-        if !row.offered || form == POSITION_SERVO {
+        if !row.offered {
             check_no_limits(parameters)?;
-        }
-        if form == POSITION_SERVO {
-            if !row.servo {
-                return Err(ParameterError::NoServoForm(settings.law));
-            }
-            return Ok(Self::Servo(Servo::new(settings, gains)?));
         }
         Ok(match settings.law {
             Law::Natural => Self::Natural(Natural::new(settings, gains, comparator.M)?),
@@ -70,7 +52,6 @@ impl Controller {
     pub fn tune(&mut self, parameters: &AxisParameters) -> Result<(), ParameterError> {
         match self {
             Self::Law(law) => law.tune(parameters),
-            Self::Servo(servo) => servo.tune(parameters.tuned()?),
             Self::Natural(natural) => natural.tune(parameters.tuned()?),
             Self::SlidingMode(sliding_mode) => sliding_mode.tune(parameters.tuned()?),
         }
@@ -91,8 +72,8 @@ impl Controller {
         }
     }
 
-    /// One tick, in the loop or out of it, with the mean force `tau_m` (N) of the drive over the sample that ended, and with a
-    /// position that was read `after` sample periods after the one before; what came of it stands in `outputs`.
+    /// One tick, in the loop or out of it, with a position that was read `after` sample periods after the one before; what
+    /// came of it stands in `outputs`.
     ///
     /// # Errors
     /// [`NotFinite`].
@@ -100,24 +81,14 @@ impl Controller {
         &mut self,
         inputs: &AxisInputs,
         after: f64,
-        tau_m: f64,
         outputs: &mut AxisOutputs,
-    ) -> Result<Command, NotFinite> {
+    ) -> Result<(), NotFinite> {
         let AxisInputs {
             q, tau_h, engage, ..
         } = *inputs;
         let engage = engage != 0;
         match self {
-            Self::Law(law) => law.tick_after(after, inputs, outputs)?,
-            Self::Servo(servo) => {
-                let tick = if engage {
-                    servo.step(q, tau_h, tau_m)
-                } else {
-                    servo.rest(q, tau_m)
-                };
-                *outputs = in_servo_form(&tick, servo.energy(), engage);
-                return finite(outputs, tick.q_d, tick.dq_d);
-            }
+            Self::Law(law) => return law.tick_after(after, inputs, outputs),
             Self::Natural(natural) => {
                 let tick = if engage {
                     natural.step(q, tau_h)
@@ -135,26 +106,13 @@ impl Controller {
                 *outputs = compared(&tick, engage);
             }
         }
-        finite(outputs, outputs.q_n, outputs.dq_n)
+        let numbers = [outputs.tau_demand, outputs.q_n, outputs.dq_n];
+        let finite = numbers.iter().all(|number| number.is_finite());
+        finite.then_some(()).ok_or(NotFinite)
     }
 }
 
-/// The command, if all that follows from the tick is finite.
-fn finite(outputs: &AxisOutputs, q_d: f64, dq_d: f64) -> Result<Command, NotFinite> {
-    [
-        outputs.tau_demand,
-        outputs.q_n,
-        outputs.dq_n,
-        outputs.G,
-        q_d,
-    ]
-    .iter()
-    .all(|number| number.is_finite())
-    .then_some(Command { q_d, dq_d })
-    .ok_or(NotFinite)
-}
-
-/// Comparators and the servo form do not keep limits: none may be set.
+/// Comparators do not keep limits: none may be set.
 fn check_no_limits(parameters: &AxisParameters) -> Result<(), ParameterError> {
     let boxed = parameters.q_n_box != 0;
     for (name, value, is_set) in [
@@ -174,21 +132,6 @@ fn check_no_limits(parameters: &AxisParameters) -> Result<(), ParameterError> {
     Ok(())
 }
 
-fn in_servo_form(tick: &servo::ServoTick, energy: &servo::Energy, engaged: bool) -> AxisOutputs {
-    AxisOutputs {
-        q_n: tick.q_n,
-        dq_n: tick.dq_n,
-        e_nr: tick.e_nr,
-        dq: tick.dq,
-        H: energy.H,
-        G: energy.G,
-        tank: energy.tank,
-        saturated: tick.saturated.into(),
-        engaged: engaged.into(),
-        ..AxisOutputs::default()
-    }
-}
-
 /// What a comparator shows. It has no storage and no tank: H, G and the tank are 0.
 fn compared(tick: &comparator::ComparatorTick, engaged: bool) -> AxisOutputs {
     AxisOutputs {
@@ -196,6 +139,8 @@ fn compared(tick: &comparator::ComparatorTick, engaged: bool) -> AxisOutputs {
         tau_demand: tick.f_demand,
         q_n: tick.q_n,
         dq_n: tick.dq_n,
+        q_d: tick.q_n,
+        dq_d: tick.dq_n,
         e_nr: tick.e_nr,
         dq: tick.dq,
         tank: 0.0,

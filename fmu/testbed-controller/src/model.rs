@@ -2,11 +2,12 @@
 
 use crate::TestbedController;
 use crate::controller::Controller;
-use crate::rows::TORQUE;
 use admittance::Law;
 use admittance::encoder;
+use admittance::one_axis::form::TORQUE;
 use admittance::one_axis::{AxisInputs, AxisParameters, NotFinite};
 use admittance::parameters::in_range;
+use admittance::servo;
 use admittance::timing::{self, IN_TIME};
 use export::{Clock, Log, Model, Refusal, Sample, Sampler, Step};
 
@@ -14,7 +15,7 @@ impl Model for TestbedController {
     fn initialize(&mut self, _start_time: f64, log: &mut Log<'_>) -> Result<(), Refusal> {
         in_range(self).map_err(Refusal::new)?;
         let controller =
-            Controller::new(&self.parameters, self.form, &self.comparator).map_err(Refusal::new)?;
+            Controller::new(&self.parameters, &self.comparator).map_err(Refusal::new)?;
         self.gain_warning = 0;
         self.advise(log)?;
         // What is shown is a controller at rest; what begins to run knows no motion yet.
@@ -63,12 +64,17 @@ impl Model for TestbedController {
             return Ok(());
         };
         let before = self.outputs.encoder_fault;
+        let drive = self.outputs.drive_fault;
         self.tick(after)
             .map_err(|NotFinite| self.overflow(&format!("tick {number}")))?;
         let fault = self.outputs.encoder_fault;
         if ![0, before].contains(&fault) {
             let q = self.inputs.q;
             log.warning(format_args!("{}; q = {q:?} m", encoder::message(fault)));
+        }
+        let fault = self.outputs.drive_fault;
+        if ![0, drive].contains(&fault) {
+            log.warning(format_args!("{}", servo::message(fault)));
         }
         if self.outputs.timing != IN_TIME && !self.told {
             self.told = true;
@@ -94,7 +100,7 @@ impl TestbedController {
                 T: period,
                 ..self.parameters
             };
-            let controller = Controller::new(&parameters, self.form, &self.comparator);
+            let controller = Controller::new(&parameters, &self.comparator);
             self.controller = Some(controller.map_err(|error| sampler.refused(T, error))?);
             sampler.tell(T, log);
         }
@@ -107,9 +113,7 @@ impl TestbedController {
 
     fn tick(&mut self, after: f64) -> Result<(), NotFinite> {
         if let Some(controller) = &mut self.controller {
-            let command =
-                controller.tick(&self.inputs, after, self.tau_a_measured, &mut self.outputs)?;
-            (self.q_d, self.dq_d) = (command.q_d, command.dq_d);
+            controller.tick(&self.inputs, after, &mut self.outputs)?;
         }
         Ok(())
     }
@@ -118,7 +122,7 @@ impl TestbedController {
     fn advise(&mut self, log: &mut Log<'_>) -> Result<(), Refusal> {
         let law = Law::try_from(self.parameters.law).map_err(Refusal::new)?;
         let mut advice = self.parameters.advice().map_err(Refusal::new)?;
-        advice.stiff_coupling &= self.form == TORQUE; // else the coupling is the drive's
+        advice.stiff_coupling &= self.parameters.form == TORQUE; // else the coupling is the drive's
         advice.light_nominal &= law.row().nominal_mass;
         let before = std::mem::replace(&mut self.gain_warning, advice.number());
         if ![0, before].contains(&self.gain_warning) {
@@ -129,9 +133,17 @@ impl TestbedController {
 
     #[cold]
     fn overflow(&self, when: &str) -> Refusal {
-        let AxisInputs { q, tau_h, .. } = self.inputs;
-        Refusal(format!(
-            "{when}: the law's result is not finite with q = {q} m and tau_h = {tau_h} N"
-        ))
+        let AxisInputs {
+            q,
+            tau_h,
+            tau_a_measured,
+            ..
+        } = self.inputs;
+        let mut message =
+            format!("{when}: the law's result is not finite with q = {q} m and tau_h = {tau_h} N");
+        if self.parameters.form != TORQUE {
+            message += &format!(" and tau_a_measured = {tau_a_measured} N");
+        }
+        Refusal(message)
     }
 }

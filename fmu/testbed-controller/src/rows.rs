@@ -2,14 +2,9 @@
 
 use crate::controller::Controller;
 use admittance::one_axis::{AxisInputs, AxisOutputs, AxisParameters};
-use declaration::{Declare, Description, Experiment, Rows, Start, Stepping, choices};
+use declaration::{Declare, Description, Experiment, Rows, Start, Stepping};
 use export::Sampler;
 use serde::{Deserialize, Serialize};
-
-choices! { FORM "Form" "What the robot gets from the controller":
-    TORQUE = 1 "torque" "the force tau_a";
-    POSITION_SERVO = 2 "position_servo" "q_d and dq_d, for a drive that closes the loop with K and K_P itself; needs tau_a_measured";
-}
 
 /// The controller: its variables, and its state.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, Rows, Start)]
@@ -18,10 +13,6 @@ pub struct TestbedController {
     /// What is sensed and asked for.
     #[part]
     pub inputs: AxisInputs,
-    /// Measured force of the drive on the robot, mean over the sample that ended, positive along q; the nominal feels it in
-    /// the servo form, it is not used in the torque form.
-    #[input(31, unit = NEWTON)]
-    pub tau_a_measured: f64,
 
     /// What came of the last tick.
     #[part]
@@ -34,12 +25,6 @@ pub struct TestbedController {
     /// them. T where a step divides it; the step itself where it is longer than T.
     #[output(54, unit = SECOND, from = ["T"], start = 0.002)]
     pub sample_period: f64,
-    /// Position command for the sample that begins, held: the nominal's in the middle of that sample; q_n in the torque form.
-    #[output(32, unit = METRE, from = ["q"])]
-    pub q_d: f64,
-    /// Velocity command for the sample that begins: the nominal's mean in that sample; dq_n in the torque form.
-    #[output(33, unit = METRE_PER_SECOND)]
-    pub dq_d: f64,
     /// Gains that are accepted but probably not meant: 0 none, 1 K*T/M_min above 0.25, 2 M_n below M_min/10, 3 both.
     #[output(30, from = ["M_min", "M_n", "K", "T"])]
     pub gain_warning: i32,
@@ -47,9 +32,6 @@ pub struct TestbedController {
     /// The law's parameters.
     #[part]
     pub parameters: AxisParameters,
-    /// What the robot gets from the controller.
-    #[parameter(34, items = FORM, start = TORQUE)]
-    pub form: i32,
     /// What the comparators need besides the law's parameters.
     #[part]
     pub comparator: Comparator,

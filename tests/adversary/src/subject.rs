@@ -236,7 +236,7 @@ pub struct JointArm {
     law: JointSpace,
 }
 
-fn of_joints(gains: &[Gains; 3]) -> JointGains {
+pub(crate) fn of_joints(gains: &[Gains; 3]) -> JointGains {
     JointGains {
         D_n: Vector3::from(gains.map(|gains| gains.D_n)),
         K: gains[0].K,
@@ -246,7 +246,7 @@ fn of_joints(gains: &[Gains; 3]) -> JointGains {
 }
 
 /// The nominal arm with all its masses and inertias times M_n/1 kg, a kilogram being about what its links have.
-fn scaled(M_n: f64) -> NominalArm {
+pub(crate) fn scaled(M_n: f64) -> NominalArm {
     let mut arm = NominalArm::default();
     arm.rotor = arm.rotor.map(|inertia| inertia * M_n);
     for link in &mut arm.links {

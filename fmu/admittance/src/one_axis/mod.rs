@@ -1,7 +1,8 @@
 //! The complete law of one axis: from what is sensed at a tick to the force.
 //!
-//! It knows no FMI: the FMU TestbedController, in torque form, and the C library are shells around it.
+//! It knows no FMI: the FMU TestbedController and the C library are shells around it.
 
+pub mod form;
 pub mod parameters;
 pub mod signals;
 
@@ -10,8 +11,10 @@ pub use signals::{AxisInputs, AxisOutputs};
 
 use crate::encoder::{Believed, Encoders, Fault, Positions};
 use crate::origin::{Move, Origin};
+use crate::servo;
 use crate::tick::{Refused, Tick};
-use crate::{Admittance, Bounds, ParameterError, Real, Request, timing};
+use crate::{Bounds, ParameterError, Real, Request, timing};
+use form::{Came, InForm, Sensed};
 use nalgebra::Vector1;
 
 /// A tick whose result is not finite: an input was not, or numbers overflow.
@@ -22,7 +25,7 @@ pub struct NotFinite;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct OneAxis {
-    law: Admittance<1>,
+    law: InForm,
     bounds: Bounds,
     counting: Origin<1>,
     encoder: Encoders<1>,
@@ -36,23 +39,12 @@ impl OneAxis {
     /// # Errors
     /// The first parameter out of its range, or a law that is a comparator.
     pub fn new(parameters: &AxisParameters) -> Result<Self, ParameterError> {
-        let Checked {
-            settings,
-            gains,
-            bounds,
-            reach,
-            f_rate,
-            encoder,
-        } = parameters.checked()?;
-        let mut law = Admittance::new(settings, [gains])?
-            .reaching(reach)?
-            .rated(Vector1::new(f_rate))?;
-        law.bound([bounds])?;
+        let checked = parameters.checked()?;
         Ok(Self {
-            law,
-            bounds,
+            law: InForm::new(&checked, parameters)?,
+            bounds: checked.bounds,
             counting: Origin::default(),
-            encoder,
+            encoder: checked.encoder,
             q: Vector1::zeros(),
         })
     }
@@ -63,7 +55,7 @@ impl OneAxis {
     /// # Errors
     /// The first gain out of its range; the gains stay as they were.
     pub fn tune(&mut self, parameters: &AxisParameters) -> Result<(), ParameterError> {
-        self.law.tune([parameters.tuned()?])
+        self.law.tune(parameters.tuned()?)
     }
 
     /// One tick with a position that was read for it; its results stand in `outputs`.
@@ -161,15 +153,21 @@ impl OneAxis {
         let q = believed.q.map(|q| self.counted(q.x, engage)).transpose()?;
         let place = self.counting.place().map(|q_0| q_0.x as Real);
         let q_n = |tick: &Tick<1>| place.map_or(tick.q_n.x, |q_0| q_0 + tick.q_n.x);
-        let finite = |tick: &Tick<1>, G: Real| {
-            let numbers = [tick.f_demand.x, q_n(tick), tick.dq_n.x, G];
+        let q_d = |q_d: Real| q_d as f64 + self.counting.place().map_or(0.0, |q_0| q_0.x);
+        let finite = |(tick, q_d, dq_d): Came<'_>, G: Real| {
+            let numbers = [tick.f_demand.x, q_n(tick), tick.dq_n.x, q_d, dq_d, G];
             numbers.iter().all(|number| number.is_finite())
+        };
+        let sensed = Sensed {
+            tau_h: Vector1::new(inputs.tau_h),
+            tau_m: Vector1::new(inputs.tau_a_measured),
         };
         match q {
             None if believed.fault == Some(Fault::NotFinite) => return Err(NotFinite),
             None => {
-                let tick = self.law.abandon(&self.q);
+                let tick = self.law.abandon(&self.q, &sensed);
                 show(&tick, q_n(&tick), outputs);
+                (outputs.q_d, outputs.dq_d) = (q_d(tick.q_n.x), 0.0);
             }
             Some(q) if engage => {
                 let request = Request {
@@ -177,23 +175,28 @@ impl OneAxis {
                     after,
                     ..Request::default()
                 };
-                let accept = |tick: &Tick<1>, G| {
-                    let accepted = finite(tick, G);
+                let accept = |came: Came<'_>, G| {
+                    let accepted = finite(came, G);
                     if accepted {
+                        let (tick, position, velocity) = came;
                         show(tick, q_n(tick), outputs);
+                        (outputs.q_d, outputs.dq_d) = (q_d(position), velocity);
                     }
                     accepted
                 };
-                let tau_h = Vector1::new(inputs.tau_h);
                 self.law
-                    .tick_if(&q, &tau_h, &request, accept)
+                    .tick(&q, &sensed, &request, accept)
                     .map_err(|Refused| NotFinite)?;
             }
             Some(q) => {
                 let at_rest = Tick::at_rest(&q);
-                let accept = |G| finite(&at_rest, G);
-                let tick = self.law.rest_if(&q, accept).map_err(|Refused| NotFinite)?;
+                let accept = |G| finite((&at_rest, q.x, 0.0), G);
+                let tick = self
+                    .law
+                    .rest(&q, &sensed, accept)
+                    .map_err(|Refused| NotFinite)?;
                 show(&tick, q_n(&tick), outputs);
+                (outputs.q_d, outputs.dq_d) = (q_d(tick.q_n.x), 0.0);
             }
         }
         if believed.doubted {
@@ -207,6 +210,7 @@ impl OneAxis {
         outputs.G = ledger.G();
         outputs.tank = ledger.tank();
         outputs.debt = ledger.is_in_debt().into();
+        outputs.drive_fault = self.law.drive_fault().map_or(0, servo::Fault::number);
         Ok(())
     }
 

@@ -4,6 +4,7 @@ use crate::advice::{Advice, advise};
 use crate::bounds::{boxed, or_none};
 use crate::encoder::{Checks, Encoders};
 use crate::law::LAW;
+use crate::one_axis::form::{FORM, POSITION_SERVO, TORQUE};
 use crate::parameters::{in_range, tunable_in_range};
 use crate::{Bounds, Gains, Law, ParameterError, Reach, Real, Settings};
 use declaration::{Rows, Start};
@@ -85,6 +86,9 @@ pub struct AxisParameters {
     /// jumps are believed.
     #[parameter(51, name = "encoder.samples", integers = 0.., start = 5)]
     pub encoder_samples: i32,
+    /// What the robot gets from the controller.
+    #[parameter(34, items = FORM, start = TORQUE)]
+    pub form: i32,
 }
 
 /// The law's parts, made of parameters that have been checked.
@@ -111,6 +115,9 @@ impl AxisParameters {
     /// The first parameter out of its range, or a relation between parameters that does not hold.
     pub fn checked(&self) -> Result<Checked, ParameterError> {
         in_range(self)?;
+        if self.form == POSITION_SERVO {
+            self.check_servo()?;
+        }
         let [bounds] = boxed(
             "q_n_max",
             self.q_n_box != 0,
@@ -135,6 +142,25 @@ impl AxisParameters {
             f_rate: or_none(self.tau_rate_max),
             encoder: Encoders::new(checks, &reach, self.T),
         })
+    }
+
+    /// The drive's force is not the law's to limit, and not every law can be a drive's.
+    fn check_servo(&self) -> Result<(), ParameterError> {
+        if self.tau_rate_max != 0.0 {
+            let expected = "no limit, which the laws 1 to 4 in torque form alone keep";
+            return Err(ParameterError::of(
+                "tau_rate_max",
+                None,
+                self.tau_rate_max,
+                expected,
+            ));
+        }
+        let law = Law::try_from(self.law)?;
+        if law.row().servo {
+            Ok(())
+        } else {
+            Err(ParameterError::NoServoForm(law))
+        }
     }
 
     /// The gains.

@@ -3,6 +3,7 @@
 
 use crate::Real;
 use crate::encoder::FAULT;
+use crate::servo;
 use crate::timing::TIMING;
 use declaration::{Rows, Start};
 
@@ -23,13 +24,17 @@ pub struct AxisInputs {
     #[input(2, boolean, start = 1)]
     pub engage: i32,
     /// Whether the nominal stays where it is: the coupling then carries any load within tau_max without drift; the laws
-    /// 1 to 4 in torque form only.
+    /// 1 to 4 only.
     #[input(37, boolean)]
     pub hold: i32,
     /// The encoder's own word on q; if false there is no force, at once, until q is valid again, where the law engages
-    /// anew; the laws 1 to 4 in torque form only.
+    /// anew; the laws 1 to 4 only.
     #[input(47, boolean, start = 1)]
     pub encoder_valid: i32,
+    /// Measured force of the drive on the robot, mean over the sample that ended, positive along q; the nominal feels it in
+    /// the servo form, it is not used in the torque form.
+    #[input(31, unit = NEWTON)]
+    pub tau_a_measured: Real,
 }
 
 /// What came of a tick; every value is the one at t_k.
@@ -69,7 +74,8 @@ pub struct AxisOutputs {
     /// Share of the force that the energy budget left at this tick; 1 unless something is wrong.
     #[output(39, name = "energy.share", start = 1.0)]
     pub share: Real,
-    /// Whether tau_max leaves less than tau_demand.
+    /// Whether tau_max leaves less than tau_demand; in the servo form, whether tau_a_measured has reached tau_max or the
+    /// spring the bound at which it slips.
     #[output(7, boolean)]
     pub saturated: i32,
     /// Whether hold, dq_n_max or the position box kept the nominal back at this tick.
@@ -83,14 +89,24 @@ pub struct AxisOutputs {
     #[output(14, boolean)]
     pub engaged: i32,
     /// Whether the tank is below 0: a motion beyond v_max and a_max cost more than it held; no force until it is
-    /// repaid.
+    /// repaid. In the servo form, where the tank follows what is measured, the drive is told to stand still until then.
     #[output(40, name = "energy.debt", boolean)]
     pub debt: i32,
     /// What is wrong with q at this tick. A jump, or a position over range, is doubted for encoder.samples readings: the
-    /// law goes on at its last velocity. Then there is no force. 0 but for the laws 1 to 4 in torque form.
+    /// law goes on at its last velocity. Then there is no force. 0 but for the laws 1 to 4.
     #[output(48, name = "encoder.fault", items = FAULT, from = ["q", "encoder_valid", "encoder.range"])]
     pub encoder_fault: i32,
     /// Whether the tick came in time after the one before.
     #[output(53, items = TIMING)]
     pub timing: i32,
+    /// Position command for the sample that begins, held: the nominal's in the middle of that sample; q_n in the torque form.
+    #[output(32, unit = METRE, from = ["q"])]
+    pub q_d: f64,
+    /// Velocity command for the sample that begins: the nominal's mean in that sample; dq_n in the torque form.
+    #[output(33, unit = METRE_PER_SECOND)]
+    pub dq_d: Real,
+    /// What is wrong with tau_a_measured, beside the force that a drive with the law's gains would have given: judged where
+    /// that has been above a tenth of tau_max over .2 s; 0 in the torque form.
+    #[output(52, name = "drive.fault", items = servo::FAULT)]
+    pub drive_fault: i32,
 }

@@ -11,6 +11,7 @@ mod limits;
 mod refusals;
 mod robot;
 mod rows;
+mod servo;
 mod singularity;
 mod start;
 mod stiff_hand;

@@ -13,6 +13,7 @@ use admittance::bounds::{Bounds, Interval};
 use admittance::motion::Sampling;
 use admittance::real::{floored, sat};
 use admittance::retune::Tuning;
+use admittance::servo::{Drivable, Drive};
 use admittance::settling::Keep;
 use admittance::tick::{Coordinates, Tick};
 use admittance::{Motion, ParameterError, Real, Settings, timing};
@@ -350,32 +351,87 @@ impl Coordinates<3> for Joints {
         let Settings { law, T, .. } = self.settings;
         let gains = self.tuning.now();
         let JointProposal {
-            q,
-            body,
-            sample,
-            tau_demand,
-            ..
+            sample, tau_demand, ..
+        } = proposal;
+        let v_b = (law.row().slips() && tau != tau_demand).then(|| {
+            let v_b = midpoint::at_the_bound(gains, T, sample, &(tau / gains.K));
+            let limited = tau.zip_map(tau_demand, |tau, asked| tau != asked);
+            (v_b, limited)
+        });
+        self.moved_on(proposal, driven, v_b.as_ref());
+    }
+
+    fn rest(&mut self) {
+        self.tuning.finish();
+        self.state = None;
+    }
+}
+
+impl Joints {
+    /// The nominal moves on, and is set back, joint by joint, to the velocities (rad/s) at which its coupling is at its bound.
+    fn moved_on(
+        &mut self,
+        proposal: &JointProposal,
+        driven: &Solution,
+        v_b: Option<&(Vector3<Real>, Vector3<bool>)>,
+    ) {
+        let JointProposal {
+            q, body, sample, ..
         } = proposal;
         let Solution { v_m, held } = driven;
         let mut v_n = slower(body, v_m * 2.0 - sample.v_n, v_m, held);
-        if law.row().slips() && tau != tau_demand {
-            let v_b = midpoint::at_the_bound(gains, T, sample, &(tau / gains.K));
-            let limited = tau.zip_map(tau_demand, |tau, asked| tau != asked);
-            v_n = slower(body, v_n, &v_b, &limited);
+        if let Some((v_b, limited)) = v_b {
+            v_n = slower(body, v_n, v_b, limited);
         }
         self.state = Some(State {
             q: *q,
             body: *body,
-            q_n: sample.e + q + v_m * T,
+            q_n: sample.e + q + v_m * self.settings.T,
             v_n: v_n.map(floored),
             motion: [0, 1, 2].map(|i| Motion::at(q[i], sample.dq[i])),
         });
         self.tuning.pass();
     }
 
-    fn rest(&mut self) {
-        self.tuning.finish();
-        self.state = None;
+    /// Whether the drives' gains are among `gains` what they were; `names` are those of K, K_P and tau_max in the message.
+    ///
+    /// # Errors
+    /// The first one that is not.
+    pub(super) fn of_the_drives(
+        &self,
+        gains: &JointGains,
+        names: [&'static str; 3],
+    ) -> Result<(), ParameterError> {
+        if gains.K == self.tuning.now().K {
+            drive(self.tuning.now()).is_kept(&drive(gains), names)
+        } else {
+            Err(Drive::<3>::not_kept(names[0], None, gains.K)) // one number for all joints
+        }
+    }
+}
+
+impl Drivable<3> for Joints {
+    fn drive(&self) -> Drive<3> {
+        drive(self.tuning.now())
+    }
+
+    fn v_m(&self, driven: &Solution) -> Vector3<Real> {
+        driven.v_m
+    }
+
+    fn follow(&mut self, proposal: &JointProposal, driven: &Solution, v_b: &[Option<Real>; 3]) {
+        let limited = Vector3::from(v_b.map(|v_b| v_b.is_some()));
+        let v_b = Vector3::from(v_b.map(|v_b| v_b.unwrap_or(0.0)));
+        self.moved_on(proposal, driven, Some(&(v_b, limited)));
+    }
+}
+
+/// The loops of drives with these gains.
+fn drive(gains: &JointGains) -> Drive<3> {
+    Drive {
+        K: Vector3::repeat(gains.K),
+        K_P: gains.K_P,
+        f_max: gains.tau_max,
     }
 }
 

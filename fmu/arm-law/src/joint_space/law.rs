@@ -213,7 +213,7 @@ impl JointSpace {
 }
 
 /// The tick at the handle, which is at `pose`.
-fn show(kinematics: &Kinematics, pose: &Pose, tick: &Tick<3>, shown: &mut HandleTick) {
+pub(super) fn show(kinematics: &Kinematics, pose: &Pose, tick: &Tick<3>, shown: &mut HandleTick) {
     let nominal = sin_cos(&tick.q_n);
     let p_n = kinematics.p(&nominal);
     *shown = HandleTick {
@@ -234,7 +234,7 @@ fn show(kinematics: &Kinematics, pose: &Pose, tick: &Tick<3>, shown: &mut Handle
 
 /// d JᵀJ, N·m·s/rad, for a damping `d` (N·s/m) of the handle: without the elements that couple yaw and pitch, which are
 /// rounding.
-fn at_the_joints(pose: &Pose, d: Real) -> Matrix3<Real> {
+pub(super) fn at_the_joints(pose: &Pose, d: Real) -> Matrix3<Real> {
     let mut D = pose.J.tr_mul(&pose.J) * d;
     (D.m12, D.m13, D.m21, D.m31) = (0.0, 0.0, 0.0, 0.0);
     D

@@ -33,14 +33,17 @@
 //! | [`stored`] | the springs' energy; gain changes that do not raise it |
 //! | [`joints`] | the law between two ticks |
 //! | [`law`] | a tick with its limits, ledger and budget |
+//! | [`servo`] | the same for joints whose drives take positions and velocities |
 
 pub mod boxed;
 pub mod gains;
 pub mod joints;
 pub mod law;
 pub mod midpoint;
+pub mod servo;
 pub mod stored;
 
 pub use gains::{JointGains, JointSettings};
 pub use joints::{Angles, JointProposal, JointRequest, JointSensed, Joints};
 pub use law::{JointParameters, JointSpace, Nominal};
+pub use servo::JointServo;

@@ -64,3 +64,41 @@ fn a_position_marked_invalid_gives_no_force_and_says_why() {
     tick(&mut c, 521);
     assert_eq!(c.outputs.encoder_fault, Fault::OverRange.number());
 }
+
+#[test]
+fn in_servo_form_a_drive_whose_position_is_not_known_is_told_to_stand_where_it_last_was() {
+    let mut c = initialized(|c| (c.parameters.form, c.inputs.tau_h) = (2, 2.0));
+    for k in 0..100 {
+        c.inputs.q = 1e-4 * f64::from(k);
+        tick(&mut c, k);
+    }
+    assert!(c.outputs.dq_d > 0.0 && c.outputs.engaged == 1);
+    (c.inputs.encoder_valid, c.inputs.q) = (0, 0.5);
+    tick(&mut c, 100);
+    assert_eq!((c.outputs.q_d, c.outputs.dq_d), (99e-4, 0.0));
+    assert_eq!(
+        (c.outputs.engaged, c.outputs.encoder_fault),
+        (0, Fault::Invalid.number())
+    );
+    (c.inputs.encoder_valid, c.inputs.q) = (1, 1e-2);
+    (101..110).for_each(|k| tick(&mut c, k));
+    assert_eq!((c.outputs.engaged, c.outputs.encoder_fault), (1, 0));
+    assert!(c.outputs.q_d > 1e-2);
+}
+
+#[test]
+fn in_servo_form_a_measured_force_that_is_no_number_is_refused_by_name() {
+    use export::{Log, Model, Step};
+    let mut c = initialized(|c| (c.parameters.form, c.inputs.tau_h) = (2, 2.0));
+    tick(&mut c, 0);
+    c.inputs.tau_a_measured = f64::NAN;
+    let step = Step::at(0.002, 0.002);
+    let failure = c.step(step, &mut Log::silent()).expect_err("no number");
+    assert!(
+        failure.0.ends_with("and tau_a_measured = NaN N"),
+        "{failure}"
+    );
+    // In torque form nobody looks at it.
+    let mut c = initialized(|c| c.inputs.tau_a_measured = f64::NAN);
+    tick(&mut c, 0);
+}

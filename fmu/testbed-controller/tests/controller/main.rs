@@ -253,11 +253,11 @@ fn refusals_name_the_variable_the_value_and_the_range() {
             "T = -1: expected a finite value, at least 1e-6",
         ),
         (
-            |c| c.form = 3,
+            |c| c.parameters.form = 3,
             "form = 3: expected 1 (torque), 2 (position_servo)",
         ),
         (
-            |c| (c.parameters.law, c.form) = (2, 2),
+            |c| (c.parameters.law, c.parameters.form) = (2, 2),
             "law = 2 (passive) has no servo form: expected 1 (standard), 3 (passive_applied), 4 (passive_bounded)",
         ),
         (
@@ -265,7 +265,7 @@ fn refusals_name_the_variable_the_value_and_the_range() {
             "dq_n_max = 0.5: expected no limit, which the laws 1 to 4 in torque form alone keep",
         ),
         (
-            |c| (c.form, c.parameters.tau_rate_max) = (2, 50.0),
+            |c| (c.parameters.form, c.parameters.tau_rate_max) = (2, 50.0),
             "tau_rate_max = 50: expected no limit, which the laws 1 to 4 in torque form alone keep",
         ),
         (
@@ -277,7 +277,7 @@ fn refusals_name_the_variable_the_value_and_the_range() {
             "tau_rate_max = -1: expected a finite value not less than 0",
         ),
         (
-            |c| (c.parameters.law, c.form) = (5, 2),
+            |c| (c.parameters.law, c.parameters.form) = (5, 2),
             "law = 5 (natural) has no servo form: expected 1 (standard), 3 (passive_applied), 4 (passive_bounded)",
         ),
         (
