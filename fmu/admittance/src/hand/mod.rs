@@ -18,7 +18,7 @@
 //!    four half swings, or when it has lasted for `periods` without shrinking; the last one is above `f_min`.
 //! 4. Suspected, it is probed with the damping D = `probe`·|k + jωb|/ω for four half swings: [`Probe`]. The same spring and
 //!    damper after it, or a swing that ends together with its force: a hand. Anything else is meant: D goes back within
-//!    `attack`, and nothing is probed for `pause` or until the swing has ended.
+//!    `attack`, and nothing is probed for `pause`, or until the swing has ended or f_h has doubled.
 //! 5. A hand is damped with D up to `D_max`, within `attack` (with what it was probed with, if that has ended it). When no
 //!    half swing of it above `f_min` has come for `quiet`, D goes back to 0 within `release`.
 //! 6. There is no time to wait for a swing that doubles in a period, and no need to for a hand that was found before and is
@@ -69,10 +69,14 @@ use crate::real::{max, min};
 /// Half swings in a row that have to grow. An operator's own motion of constant amplitude grows while it sets in, for two
 /// half swings and, behind the band pass, a third.
 const HALF_SWINGS: u32 = 4;
+/// Half swings in a row that must be of one hand, to have a reference for the probe.
+const HALF_SWINGS_OF_ONE_HAND: u32 = 3;
 /// Half swings in a row that must not shrink with a hand that has been found before: it is likely to be there still.
 const HALF_SWINGS_AGAIN: u32 = 2;
 /// How far apart, over its magnitude, a hand may be from one that has been found, to be the same.
 const THE_SAME: Real = 0.3;
+/// Growth of f_h beyond what it was when it was found to be meant, from which on it is looked at again.
+const DOUBLED: Real = 2.0;
 
 /// What is made of the swing.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -85,8 +89,8 @@ enum Finding {
     Probed { probe: Probe, at_once: bool },
     /// A stiff hand, this one, damped since and not quiet.
     Hand(Impedance),
-    /// An operator who means it: left alone for this long (s).
-    Meant(Real),
+    /// An operator who means it: left alone `since` so long (s), unless f_h grows from the amplitude `strength` (N).
+    Meant { since: Real, strength: Real },
 }
 
 /// The detector of one axis between two ticks. Its default has seen nothing yet.
@@ -159,7 +163,10 @@ impl Detector {
                 Answer::Ended => next.found(next.wanted, probe.reference()),
                 Answer::Hand => next.found(watch.hand().D_max, probe.reference()),
                 Answer::Meant => Self {
-                    finding: Finding::Meant(0.0),
+                    finding: Finding::Meant {
+                        since: 0.0,
+                        strength: half.strength,
+                    },
                     known: Impedance::default(),
                     wanted: 0.0,
                     quiet: 0.0,
@@ -174,7 +181,11 @@ impl Detector {
                 },
                 ..next
             },
-            Finding::Meant(_) => Self {
+            // A swing that goes on to grow may have been covered by what is meant.
+            Finding::Meant { strength, .. } if strong && half.strength >= DOUBLED * strength => {
+                next.suspected(half, watch)
+            }
+            Finding::Meant { .. } => Self {
                 quiet: if strong { 0.0 } else { self.quiet },
                 ..next
             },
@@ -187,8 +198,9 @@ impl Detector {
         let returned =
             run.hand().apart(&self.known) <= THE_SAME && run.rising() >= HALF_SWINGS_AGAIN;
         let at_once = returned || run.grown_fast() >= HALF_SWINGS;
+        let grows = run.grown() >= HALF_SWINGS && run.same() >= HALF_SWINGS_OF_ONE_HAND;
         let lasts = run.lasting() >= 2 * hand.periods.unsigned_abs();
-        if !at_once && !lasts && run.grown() < HALF_SWINGS {
+        if !at_once && !grows && !lasts {
             return self;
         }
         let reference = run.hand();
@@ -224,10 +236,13 @@ impl Detector {
         let quiet = self.quiet + T;
         let (finding, quiet) = match self.finding {
             Finding::Hand(_) if quiet >= hand.quiet => (Finding::None, 0.0),
-            Finding::Meant(since) if quiet >= hand.quiet || since >= hand.pause => {
+            Finding::Meant { since, .. } if quiet >= hand.quiet || since >= hand.pause => {
                 (Finding::None, 0.0)
             }
-            Finding::Meant(since) => (Finding::Meant(since + T), quiet),
+            Finding::Meant { since, strength } => {
+                let since = since + T;
+                (Finding::Meant { since, strength }, quiet)
+            }
             finding @ Finding::Hand(_) => (finding, quiet),
             finding => (finding, 0.0),
         };
@@ -238,7 +253,7 @@ impl Detector {
             self.wanted
         };
         let down = match finding {
-            Finding::Meant(_) => hand.attack,
+            Finding::Meant { .. } => hand.attack,
             _ => hand.release,
         };
         let D = if self.D <= wanted {
@@ -248,7 +263,7 @@ impl Detector {
         };
         Self {
             // What comes after a pause is measured anew.
-            run: if finding == Finding::None && matches!(self.finding, Finding::Meant(_)) {
+            run: if finding == Finding::None && matches!(self.finding, Finding::Meant { .. }) {
                 Run::default()
             } else {
                 self.run

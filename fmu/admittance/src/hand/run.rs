@@ -87,6 +87,11 @@ impl Run {
         &self.hand
     }
 
+    /// Half swings in a row that are of one hand.
+    pub fn same(&self) -> u32 {
+        self.same
+    }
+
     /// Half swings in a row that are of one hand, each with no less force than the one before it.
     pub fn rising(&self) -> u32 {
         self.rising
