@@ -19,7 +19,7 @@
 //! 4. Suspected, it is probed with the damping D = `probe`·|k + jωb|/ω for four half swings: [`Probe`]. The same spring and
 //!    damper after it, or a swing that ends together with its force: a hand. Anything else is meant: D goes back within
 //!    `attack`, and nothing is probed for `pause`, or until the swing has ended or f_h has doubled.
-//! 5. A hand is damped with D up to `D_max`, within `attack` (with what it was probed with, if that has ended it). When no
+//! 5. A hand is damped with D up to `D_max`, within `attack`; what has ended with no answer, with D of the probe. When no
 //!    half swing of it above `f_min` has come for `quiet`, D goes back to 0 within `release`.
 //! 6. There is no time to wait for a swing that doubles in a period, and no need to for a hand that was found before and is
 //!    back: these are probed with `D_max`.

@@ -34,7 +34,7 @@ pub enum Answer {
     Open(Probe),
     /// It is a hand: the swing is the same, as that of a spring would be, whatever the robot does.
     Hand,
-    /// It is a hand: the swing has ended, and the force with it.
+    /// It passes for a hand: the swing has ended, and the force with it, before there was an answer.
     Ended,
     /// It is meant: the force goes on, and is not that of a spring any more.
     Meant,
@@ -76,11 +76,16 @@ impl Probe {
             ..self
         };
         let mean = self.last.towards(&half.hand, 0.5);
+        let is_the_same = half.hand.apart(&self.reference) <= THE_SAME;
         if half.strength < max(ENDED * self.strength, watch.hand().f_min) {
-            Answer::Ended
+            if is_the_same {
+                Answer::Hand
+            } else {
+                Answer::Ended
+            }
         } else if half.ended_late {
             // What swings too slowly for the band now is a hand that the damping holds, or a force that holds the robot.
-            answer(half.hand.apart(&self.reference) <= THE_SAME)
+            answer(is_the_same)
         } else if next.half_swings < HALF_SWINGS {
             Answer::Open(next)
         } else {
