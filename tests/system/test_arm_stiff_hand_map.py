@@ -1,4 +1,4 @@
-"""Scenario arm_stiff_hand_map on the built FMUs: why it takes a probe, by a regression that shares nothing with the detector."""
+"""Scenario arm_stiff_hand_map on the built FMUs: why it takes a probe, by a regression that is not the detector's."""
 
 import numpy as np
 import pytest
@@ -42,7 +42,7 @@ def test_in_a_steady_swing_a_force_that_is_meant_looks_like_a_passive_hand(exper
 
 
 def test_the_robot_feeds_both_so_that_energy_does_not_tell_them_apart(experiment: Experiment) -> None:
-    # ∫ f_h dp over whole periods: a damper takes it, and so does a force that the robot's port, which is not passive, leads.
+    # ∫ f_h dp over whole periods: a damper takes it, and so does a force at a port that is not passive.
     cases = {"hand_1000_50_free": 2.375, "hand_2000_50_free": 2.37} | SHAKES
     for case, frequency in cases.items():
         run = experiment.recordings[f"{case}_off"]

@@ -199,7 +199,7 @@ impl Detector {
             run.hand().apart(&self.known) <= THE_SAME && run.rising() >= HALF_SWINGS_AGAIN;
         let at_once = returned || run.grown_fast() >= HALF_SWINGS;
         let grows = run.grown() >= HALF_SWINGS && run.same() >= HALF_SWINGS_OF_ONE_HAND;
-        let lasts = run.lasting() >= 2 * hand.periods.unsigned_abs();
+        let lasts = run.lasting() >= hand.periods.unsigned_abs().saturating_mul(2);
         if !at_once && !grows && !lasts {
             return self;
         }

@@ -70,7 +70,7 @@ impl Probe {
             };
         }
         let next = Self {
-            half_swings: self.half_swings + 1,
+            half_swings: self.half_swings.saturating_add(1),
             elapsed,
             last: half.hand,
             ..self
