@@ -111,6 +111,23 @@ def test_leaving_delay_counts_from_after_and_is_nan_for_what_stays() -> None:
     assert math.isnan(events.leaving_delay(run, margin=0.004, **arguments))
 
 
+def test_least_peak_to_peak_is_that_of_the_quietest_span_of_its_window() -> None:
+    # A swing of ±1 that is ±0.25 from 4 to 6 s, and rests from 9 s on.
+    size = np.where((TIME >= 4.0) & (TIME < 6.0), 0.25, np.where(TIME < 9.0, 1.0, 0.0))
+    run = recording(time=TIME, x=size * np.sin(2.0 * np.pi * TIME))
+    assert basic.least_peak_to_peak(run, column="x", span=1.0, before=9.0) == pytest.approx(0.5)
+    assert basic.least_peak_to_peak(run, column="x", span=1.0, before=4.0) == pytest.approx(2.0)
+    assert basic.least_peak_to_peak(run, column="x", span=3.0, before=9.0) > 1.0
+    assert basic.least_peak_to_peak(run, column="x", span=1.0) == 0.0
+
+
+def test_time_above_counts_the_ticks_above_a_level() -> None:
+    run = recording(time=TIME, x=np.where((TIME >= 2.0) & (TIME < 3.5), 1.0, 0.5))
+    assert basic.time_above(run, column="x", level=0.5) == pytest.approx(1.5)
+    assert basic.time_above(run, column="x", level=0.0) == pytest.approx(10.0)
+    assert basic.time_above(run, column="x", level=1.0) == 0.0
+
+
 def test_mean_rate_is_taken_between_two_ticks() -> None:
     run = recording(time=TIME, z=TIME**2)
     assert basic.mean_rate(run, column="z", first=2.0, last=4.0) == pytest.approx(6.0)

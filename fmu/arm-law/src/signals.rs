@@ -131,13 +131,14 @@ pub struct ArmOutputs {
     /// repaid.
     #[output(47, name = "energy.debt", boolean)]
     pub debt: i32,
-    /// Whether on any axis a stiff hand has made a swing grow and has not been quiet since.
+    /// Whether on any axis a stiff hand has been found to swing, or makes a swing grow so fast that it is damped before, and
+    /// has not been quiet since.
     #[output(63, name = "stiff_hand.detected", boolean)]
     pub stiff_hand_detected: i32,
-    /// Damping on top of D_n for a stiff hand; base frame.
+    /// Damping on top of D_n for a stiff hand, and to probe whether a swing is meant; base frame.
     #[output(64, name = "stiff_hand.D[i]", unit = NEWTON_SECOND_PER_METRE)]
     pub stiff_hand_D: [Real; 3],
-    /// Stiffness of the hand in the last swing that counted, 0 before the first; base frame.
+    /// Stiffness of the hand in the last swing that counted, meant or not, 0 before the first; base frame.
     #[output(65, name = "stiff_hand.k_h[i]", unit = NEWTON_PER_METRE)]
     pub stiff_hand_k_h: [Real; 3],
     /// Force of the human on the handle as the law uses it, 0 during a fault or a tare; base frame.

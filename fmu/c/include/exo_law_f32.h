@@ -124,7 +124,7 @@ typedef struct exo_f32_arm_singularity {
 typedef struct exo_f32_arm_stiff_hand {
   // Whether a hand too stiff for the gains is looked for and answered with damping.
   int32_t active; // 0 or 1
-  // Damping on top of D_n while a stiff hand is detected.
+  // Largest damping on top of D_n, for a stiff hand that is detected.
   exo_f32_real D_max; // N.s/m
   // Lower edge of the band in which a stiff hand is looked for, above the motions that the operator means.
   exo_f32_real f_low; // Hz
@@ -132,14 +132,22 @@ typedef struct exo_f32_arm_stiff_hand {
   exo_f32_real f_high; // Hz
   // Amplitude of f_h in the band from which on a swing counts.
   exo_f32_real f_min; // N
-  // Factor, greater than 1, by which f_h has to grow from one period of a swing to the next.
+  // Factor, greater than 1, by which f_h has to grow from one period of a swing to the next to be probed before it has
+  // lasted.
   exo_f32_real growth;
   // Time in which the damping rises to stiff_hand.D_max.
   exo_f32_real attack; // s
-  // Time without a swing after which the damping is given back.
+  // Time without a swing of that hand after which the damping is given back.
   exo_f32_real quiet; // s
   // Time in which it is given back.
   exo_f32_real release; // s
+  // Number of periods that a swing which does not grow has to last, with one and the same hand, before it is probed.
+  int32_t periods;
+  // Damping that probes whether a swing is meant, over the magnitude of the hand's impedance f_h/dp in it. The
+  // stiffness of a hand stays under the probe; what a meant force seems to have of it changes by about this share.
+  exo_f32_real probe;
+  // Time after a swing that was found to be meant in which no other one is probed, unless it ends before.
+  exo_f32_real pause; // s
 } exo_f32_arm_stiff_hand;
 
 // What can be set. Times are rounded to whole ticks. The start values: half a second to engage and to stop, a heartbeat of
@@ -333,7 +341,7 @@ typedef struct exo_f32_arm_inputs {
 
 // Memory of an arm's law. Its content is the library's; it may be copied as bytes, to keep and restore a state.
 typedef struct exo_f32_arm_state {
-  uint64_t words[512];
+  uint64_t words[640];
 } exo_f32_arm_state;
 
 // Which value was refused. All texts end with a zero byte.
@@ -391,11 +399,12 @@ typedef struct exo_f32_arm_outputs {
   // Whether the tank is below 0: a motion beyond dq_max and ddq_max cost more than it held; no torque until it is
   // repaid.
   int32_t debt; // 0 or 1
-  // Whether on any axis a stiff hand has made a swing grow and has not been quiet since.
+  // Whether on any axis a stiff hand has been found to swing, or makes a swing grow so fast that it is damped before, and
+  // has not been quiet since.
   int32_t stiff_hand_detected; // 0 or 1
-  // Damping on top of D_n for a stiff hand; base frame.
+  // Damping on top of D_n for a stiff hand, and to probe whether a swing is meant; base frame.
   exo_f32_real stiff_hand_D[3]; // N.s/m
-  // Stiffness of the hand in the last swing that counted, 0 before the first; base frame.
+  // Stiffness of the hand in the last swing that counted, meant or not, 0 before the first; base frame.
   exo_f32_real stiff_hand_k_h[3]; // N/m
   // Force of the human on the handle as the law uses it, 0 during a fault or a tare; base frame.
   exo_f32_real ft_f_h[3]; // N

@@ -14,13 +14,13 @@ use declaration::Rows as _;
 /// Memory of an arm's law. Its content is the library's; it may be copied as bytes, to keep and restore a state.
 #[repr(C)]
 pub struct ArmState {
-    words: [u64; 512],
+    words: [u64; 640],
 }
 
 // SAFETY: plain words, enough of them, aligned as the law.
 unsafe impl Storage for ArmState {
     type Law = ArmLaw;
-    const MARK: u64 = 0x6578_6f5f_6172_6d32; // "exo_arm2"
+    const MARK: u64 = 0x6578_6f5f_6172_6d33; // "exo_arm3"
 }
 const _: () = assert!(fits::<ArmState>());
 

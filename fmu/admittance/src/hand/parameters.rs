@@ -19,7 +19,7 @@ pub struct StiffHand {
     /// Whether a hand too stiff for the gains is looked for and answered with damping.
     #[parameter(54, name = "stiff_hand.active", boolean)]
     pub active: i32,
-    /// Damping on top of D_n while a stiff hand is detected.
+    /// Largest damping on top of D_n, for a stiff hand that is detected.
     #[parameter(55, name = "stiff_hand.D_max", unit = NEWTON_SECOND_PER_METRE, range = POSITIVE, start = 200.0)]
     pub D_max: Real,
     /// Lower edge of the band in which a stiff hand is looked for, above the motions that the operator means.
@@ -31,18 +31,29 @@ pub struct StiffHand {
     /// Amplitude of f_h in the band from which on a swing counts.
     #[parameter(58, name = "stiff_hand.f_min", unit = NEWTON, range = POSITIVE, start = 1.0)]
     pub f_min: Real,
-    /// Factor, greater than 1, by which f_h has to grow from one period of a swing to the next.
+    /// Factor, greater than 1, by which f_h has to grow from one period of a swing to the next to be probed before it has
+    /// lasted.
     #[parameter(59, name = "stiff_hand.growth", range = AT_LEAST_ONE, start = 1.1)]
     pub growth: Real,
     /// Time in which the damping rises to stiff_hand.D_max.
     #[parameter(60, name = "stiff_hand.attack", unit = SECOND, range = POSITIVE, start = 0.1)]
     pub attack: Real,
-    /// Time without a swing after which the damping is given back.
+    /// Time without a swing of that hand after which the damping is given back.
     #[parameter(61, name = "stiff_hand.quiet", unit = SECOND, range = POSITIVE, start = 2.0)]
     pub quiet: Real,
     /// Time in which it is given back.
     #[parameter(62, name = "stiff_hand.release", unit = SECOND, range = POSITIVE, start = 1.0)]
     pub release: Real,
+    /// Number of periods that a swing which does not grow has to last, with one and the same hand, before it is probed.
+    #[parameter(180, name = "stiff_hand.periods", integers = 2..=100, start = 3)]
+    pub periods: i32,
+    /// Damping that probes whether a swing is meant, over the magnitude of the hand's impedance f_h/dp in it. The
+    /// stiffness of a hand stays under the probe; what a meant force seems to have of it changes by about this share.
+    #[parameter(181, name = "stiff_hand.probe", range = POSITIVE, start = 0.5)]
+    pub probe: Real,
+    /// Time after a swing that was found to be meant in which no other one is probed, unless it ends before.
+    #[parameter(182, name = "stiff_hand.pause", unit = SECOND, range = POSITIVE, start = 10.0)]
+    pub pause: Real,
 }
 
 /// Parameters that have been checked, with what follows from them and the sample period.

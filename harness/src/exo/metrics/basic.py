@@ -64,6 +64,23 @@ def peak_to_peak(run: Recording, *, column: str, after: float | None = None, bef
 
 
 @metric
+def least_peak_to_peak(
+    run: Recording, *, column: str, span: float, after: float | None = None, before: float | None = None
+) -> float:
+    """Least of largest less smallest value in any `span` (s) of the window."""
+    spans = np.lib.stride_tricks.sliding_window_view(
+        values(run, column, after, before), round(span / (run.time[1] - run.time[0]))
+    )
+    return float(np.min(np.ptp(spans, axis=1)))
+
+
+@metric
+def time_above(run: Recording, *, column: str, level: float) -> float:
+    """Time at which the values are above `level`, s."""
+    return float(np.sum(run[column] > level) * (run.time[1] - run.time[0]))
+
+
+@metric
 def rise(run: Recording, *, column: str, after: float, before: float, above_mean: tuple[float, float]) -> float:
     """Largest value in the window less the mean over `above_mean` (s, s)."""
     return float(np.max(values(run, column, after, before)) - np.mean(values(run, column, *above_mean)))
