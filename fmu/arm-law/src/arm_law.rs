@@ -69,6 +69,7 @@ impl ArmLaw {
             limits,
             space,
             joint,
+            workspace,
             supervision,
         } = parameters.checked()?;
         let (kinematics, T) = (parameters.kinematics, settings.T);
@@ -81,12 +82,13 @@ impl ArmLaw {
             conditioner: Conditioner::new(parameters.ft, T)?,
             encoders: parameters.encoder.checks(&reach, T),
             law: match space {
-                Space::Task => {
-                    InSpace::Task(TaskSpace::new(settings, gains, bounds, reach, limits)?)
-                }
-                Space::Joint => InSpace::Joint(JointSpace::new(
-                    settings, &joint, kinematics, reach, limits,
-                )?),
+                Space::Task => InSpace::Task(
+                    TaskSpace::new(settings, gains, bounds, reach, limits)?
+                        .within(workspace, kinematics),
+                ),
+                Space::Joint => InSpace::Joint(
+                    JointSpace::new(settings, &joint, kinematics, reach, limits)?.within(workspace),
+                ),
             },
             supervisor: supervision
                 .map(|supervision| Supervisor::new(&supervision, T))
@@ -130,7 +132,7 @@ impl ArmLaw {
             bounds.q_max -= p_0;
         }
         let by = q_0 - self.origin.map_or(Vector3::zeros(), |before| *before.q());
-        task_space.count_from(&by, bounds)?;
+        task_space.count_from(q_0, &by, bounds)?;
         self.q -= by;
         self.origin = Some(origin);
         Ok(())

@@ -56,6 +56,17 @@ impl Default for Pose {
     }
 }
 
+/// How joint angles and the distance from the yaw axis change with the handle's position.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Slopes {
+    /// ∂qᵢ/∂p, base frame, each times its scale: finite at singularities, too.
+    pub joints: [Vector3<Real>; 3],
+    /// ϱ for the yaw axis (m), D = L₁(h_x sin q₃ + h_z cos q₃) for the pitch axes (m²).
+    pub scales: [Real; 3],
+    /// ϱ, m.
+    pub radius: Real,
+}
+
 /// Sine and cosine of three angles: elementary functions are called once an angle.
 pub type SinCos = [(Real, Real); 3];
 
@@ -159,6 +170,26 @@ impl Kinematics {
              0.0,        x,        r_x,
         );
         J
+    }
+
+    /// The rows of J⁻¹ = [ −s₁/ϱ  c₁/ϱ  0;  r_x c₁/D  r_x s₁/D  r_z/D;  −x c₁/D  −x s₁/D  −z/D ], each times what it is
+    /// divided by.
+    pub(crate) fn slopes(&self, sin_cos: &SinCos) -> Slopes {
+        let [(s_1, c_1), _, (s_3, c_3)] = *sin_cos;
+        let InPlane { x, z, r_x, r_z } = self.in_plane(sin_cos);
+        let (radius, D) = (
+            self.A1 + x,
+            self.L1 * (self.handle_x * s_3 + self.handle_z * c_3),
+        );
+        Slopes {
+            joints: [
+                Vector3::new(-s_1, c_1, 0.0),
+                Vector3::new(r_x * c_1, r_x * s_1, r_z),
+                Vector3::new(-x * c_1, -x * s_1, -z),
+            ],
+            scales: [radius, D, D],
+            radius,
+        }
     }
 
     #[inline]

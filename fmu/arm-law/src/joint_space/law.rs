@@ -8,6 +8,7 @@ use crate::handle::{HandleTick, NotFinite};
 use crate::kinematics::{Kinematics, Pose, sin_cos};
 use crate::limits::{AtTheJoints, Limits};
 use crate::nominal::NominalArm;
+use crate::workspace::Workspace;
 use admittance::tick::{Inputs, Sampled, Tick};
 use admittance::{Bounds, Ledger, ParameterError, Reach, Real, Request, Settings};
 use nalgebra::{Matrix3, Vector3};
@@ -87,6 +88,14 @@ impl JointSpace {
             sampled: Sampled::new(joints, &reach)?.rated(&limits.tau_rate)?,
             limits,
         })
+    }
+
+    /// The same with a nominal that keeps within the angles of `workspace`, which has been checked; `None`: it may go
+    /// anywhere.
+    #[must_use]
+    pub fn within(mut self, workspace: Option<Workspace>) -> Self {
+        self.sampled.law_mut().keep_within(workspace);
+        self
     }
 
     /// Other gains: on a straight line over the tuning time, each step taken over so that the stored energy does not rise.
