@@ -118,7 +118,7 @@ pub struct Interval {
 
 impl Interval {
     /// All velocities.
-    const ALL: Self = Self {
+    pub const ALL: Self = Self {
         low: Real::NEG_INFINITY,
         high: Real::INFINITY,
     };

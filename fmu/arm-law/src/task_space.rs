@@ -12,9 +12,8 @@
 use crate::handle::{HandleTick, NotFinite};
 use crate::kinematics::{Kinematics, Pose};
 use crate::limits::{AtTheHandle, Limits, TorqueLimiting};
-use crate::workspace::handle::Place;
 use crate::workspace::{HandleAxes, Workspace, edges};
-use admittance::tick::{Inputs, Sampled, Tick};
+use admittance::tick::{Coordinates, Inputs, Sampled, Tick};
 use admittance::{Axes, Bounds, Gains, Ledger, ParameterError, Reach, Real, Request, Settings};
 use nalgebra::Vector3;
 
@@ -25,6 +24,8 @@ pub struct TaskSpace {
     sampled: Sampled<HandleAxes, 3>,
     limits: Limits,
     workspace: Option<edges::Limits>,
+    /// the joint angles of the last tick in the loop, rad
+    q: Vector3<Real>,
 }
 
 impl TaskSpace {
@@ -43,9 +44,11 @@ impl TaskSpace {
         let mut axes = Axes::new(settings, gains)?;
         axes.bound(bounds)?;
         Ok(Self {
-            sampled: Sampled::new(HandleAxes(axes), &reach)?.rated(&limits.tau_rate)?,
+            sampled: Sampled::new(HandleAxes { axes, near: None }, &reach)?
+                .rated(&limits.tau_rate)?,
             limits,
             workspace: None,
+            q: Vector3::zeros(),
         })
     }
 
@@ -53,7 +56,9 @@ impl TaskSpace {
     #[must_use]
     pub fn within(self, workspace: Option<Workspace>, kinematics: Kinematics) -> Self {
         Self {
-            workspace: workspace.map(|workspace| edges::Limits::new(workspace, kinematics)),
+            workspace: workspace.map(|workspace| {
+                edges::Limits::new(workspace, kinematics, self.sampled.law().settings().T)
+            }),
             ..self
         }
     }
@@ -69,7 +74,7 @@ impl TaskSpace {
         by: &Vector3<Real>,
         bounds: [Bounds; 3],
     ) -> Result<(), ParameterError> {
-        self.sampled.law_mut().0.bound(bounds)?;
+        self.sampled.law_mut().axes.bound(bounds)?;
         self.workspace = self.workspace.map(|limits| limits.counted_from(q_0));
         self.sampled.count_from(by);
         Ok(())
@@ -80,7 +85,7 @@ impl TaskSpace {
     /// # Errors
     /// The first gain out of its range; the gains stay as they were.
     pub fn tune(&mut self, gains: [Gains; 3]) -> Result<(), ParameterError> {
-        self.sampled.law_mut().0.tune(gains)
+        self.sampled.law_mut().axes.tune(gains)
     }
 
     /// One tick at joint angles `q` (rad), where the handle is at `pose`, with the human's force `f_h` (N, base frame).
@@ -96,12 +101,16 @@ impl TaskSpace {
         request: &Request<3>,
         shown: &mut HandleTick,
     ) -> Result<(), NotFinite> {
-        let near = self
-            .workspace
-            .as_ref()
-            .and_then(|limits| limits.near(q, pose));
+        let is_near = match &self.workspace {
+            Some(limits) if !limits.are_far(q, &self.q, pose) => {
+                self.sampled.law_mut().near = Some(limits.at(q, pose));
+                true
+            }
+            _ => false,
+        };
+        self.q = *q;
         let inputs = Inputs {
-            place: &Place { p: pose.p, near },
+            place: &pose.p,
             q,
             f_h,
             authority: request.authority(),
@@ -134,7 +143,11 @@ impl TaskSpace {
             };
             shown.is_finite() && G.is_finite()
         };
-        Ok(self.sampled.tick(&inputs, &joints, accept)?)
+        let done = self.sampled.tick(&inputs, &joints, accept);
+        if is_near {
+            self.sampled.law_mut().near = None;
+        }
+        Ok(done?)
     }
 
     /// One tick out of the loop: no torque, the nominal at the handle. The energy that was stored is given up; the next

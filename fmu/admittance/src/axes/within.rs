@@ -7,35 +7,36 @@ use crate::edges::{Edge, keeps, kept};
 use nalgebra::SVector;
 
 impl<const N: usize> Axes<N> {
-    /// Keeps what the axes have proposed within `edges`. Returns whether that takes a force.
+    /// Keeps what the axes have proposed within `edges`.
     pub fn keep_within<const E: usize>(
         &self,
         edges: &[Edge<N>; E],
         proposal: &mut [AxisProposal; N],
-    ) -> bool {
+    ) {
         if keeps(edges, &velocities(&proposal.map(|axis| axis.wish()))) {
-            return false;
+            return;
         }
         let wish = self.within(edges, proposal, |_| None);
         for ((axis, proposal), wish) in self.axes.iter().zip(proposal).zip(wish) {
             axis.moved(proposal, wish);
         }
-        true
     }
 
-    /// How the nominals move within `edges` while they feel the forces `f` (N). Without edges they would move as `driven`;
-    /// what they have proposed has been `held` by the edges or not.
+    /// How the nominals move within `edges` while they feel the forces `f` (N). Without edges they would move as `driven`.
+    ///
+    /// An axis that gets what it asked for keeps to its wish; where that one is held, by a force that several axes share, all
+    /// are looked at anew.
     pub fn driven_within<const E: usize>(
         &self,
         edges: &[Edge<N>; E],
-        held: bool,
         proposal: &[AxisProposal; N],
         driven: [Driven; N],
         f: &SVector<Real, N>,
     ) -> [Driven; N] {
         let feels = self.settings.law.row().feels_what_is_delivered();
         let is_proposed = || (0..N).all(|i| f[i] == proposal[i].f_demand());
-        if !feels || is_proposed() || (!held && keeps(edges, &velocities(&driven))) {
+        let is_held = || proposal.iter().any(|axis| axis.wish().held);
+        if !feels || is_proposed() || (!is_held() && keeps(edges, &velocities(&driven))) {
             return driven;
         }
         self.within(edges, proposal, |i| Some(f[i]))

@@ -113,6 +113,18 @@ fn refusals_name_the_variable_the_value_and_the_range() {
             |c| c.parameters.singularity.sigma_slow = -0.1,
             format!("singularity.sigma_slow = -0.1: {not_negative}"),
         ),
+        (
+            |c| c.parameters.workspace.q_max[2] = 0.5,
+            "workspace.q_max[3] = 0.5: expected a value greater than workspace.q_min".into(),
+        ),
+        (
+            |c| c.parameters.workspace.slowing_time = 0.0009,
+            "workspace.slowing_time = 0.0009: expected a value of at least T".into(),
+        ),
+        (
+            |c| c.parameters.workspace.radius_min = -0.1,
+            format!("workspace.radius_min = -0.1: {not_negative}"),
+        ),
     ];
     for (change, expected) in cases {
         assert_eq!(refused(change), expected);

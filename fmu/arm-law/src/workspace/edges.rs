@@ -6,7 +6,11 @@ use admittance::edges::Edge;
 use admittance::{Real, real};
 use nalgebra::Vector3;
 
-/// Distance from a limit (rad) from which on it is looked at: more than a nominal that runs ahead of its joint.
+/// Edges of the workspace: two for each joint, one for the yaw axis.
+pub const EDGES: usize = 7;
+
+/// Distance from a limit (rad) from which on it is looked at, beside what slowing takes: more than a nominal that runs ahead
+/// of its joint.
 const LOOK: Real = 0.4;
 /// The same for the distance from the yaw axis, m.
 const LOOK_RADIUS: Real = 0.05;
@@ -22,21 +26,23 @@ pub struct Limits {
     /// the middle of each joint's range, counted from there, and how far from it no limit is near
     middle: Vector3<Real>,
     wide: Vector3<Real>,
-    /// sigma_min above which the yaw axis is not near: it is no larger than the distance from it
-    sigma: Real,
+    /// slowing_time in samples: how much further a joint goes that is slowed from now on, over what it moved in the last one
+    samples: Real,
+    /// the handle's largest distance from the pitch axes, m
+    arm: Real,
 }
 
-/// The limits where any is near: n·dp ≤ d/slowing_time at the robot, one for each joint and one for the yaw axis.
+/// The limits where any is near: n·dp ≤ d/slowing_time at the robot, two for each joint and one for the yaw axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Near {
-    n: [Vector3<Real>; 4],
-    d: [Real; 4],
+    n: [Vector3<Real>; EDGES],
+    d: [Real; EDGES],
     slowing_time: Real,
 }
 
 impl Limits {
     /// Those of `workspace` on an arm of these lengths; joint angles are counted from zero.
-    pub fn new(workspace: Workspace, kinematics: Kinematics) -> Self {
+    pub fn new(workspace: Workspace, kinematics: Kinematics, T: Real) -> Self {
         let (q_min, q_max) = (
             Vector3::from(workspace.q_min),
             Vector3::from(workspace.q_max),
@@ -47,29 +53,33 @@ impl Limits {
             q_0: Vector3::zeros(),
             middle: (q_min + q_max) / 2.0,
             wide: (q_max - q_min).map(|range| range / 2.0 - LOOK),
-            sigma: workspace.radius_min + LOOK_RADIUS,
+            samples: workspace.slowing_time / T,
+            arm: kinematics.L1 + kinematics.handle_x + real::abs(kinematics.handle_z),
         }
     }
 
     /// The same with joint angles counted from `q_0` (rad).
     #[must_use]
     pub fn counted_from(self, q_0: &Vector3<Real>) -> Self {
-        let mut limits = Self::new(self.workspace, self.kinematics);
-        limits.q_0 = *q_0;
-        limits.middle -= q_0;
-        limits
+        Self {
+            q_0: *q_0,
+            middle: self.middle + self.q_0 - q_0,
+            ..self
+        }
     }
 
-    /// The limits at joint angles `q` (rad), where the arm is at `pose`; `None`: none is near.
+    /// Whether no limit is near at joint angles `q` (rad), where the arm is at `pose`, one sample after it was at `last`.
     #[inline]
-    pub fn near(&self, q: &Vector3<Real>, pose: &Pose) -> Option<Near> {
-        let is_far = pose.sigma_min > self.sigma
-            && (0..3).all(|i| real::abs(q[i] - self.middle[i]) < self.wide[i]);
-        if is_far { None } else { Some(self.at(q, pose)) }
+    pub fn are_far(&self, q: &Vector3<Real>, last: &Vector3<Real>, pose: &Pose) -> bool {
+        let go_on = (q - last).map(|moved| real::abs(moved) * self.samples);
+        let radius = pose.J.m21 * pose.sin_cos[0].1 - pose.J.m11 * pose.sin_cos[0].0;
+        (0..3).all(|i| real::abs(q[i] - self.middle[i]) + go_on[i] < self.wide[i])
+            && self.workspace.radius_min + LOOK_RADIUS + (go_on[1] + go_on[2]) * self.arm < radius
     }
 
+    /// The limits at joint angles `q` (rad), where the arm is at `pose`.
     #[cold]
-    fn at(&self, q: &Vector3<Real>, pose: &Pose) -> Near {
+    pub fn at(&self, q: &Vector3<Real>, pose: &Pose) -> Near {
         let Workspace {
             q_min,
             q_max,
@@ -82,23 +92,23 @@ impl Limits {
             scales,
             radius,
         } = self.kinematics.slopes(&pose.sin_cos);
-        // The nearer limit of each joint; times |scale|, so that an elbow bent the other way counts the right way round.
-        let side = Vector3::from_fn(|i, _| if q[i] > self.middle[i] { 1.0 } else { -1.0 });
         let angle = q + self.q_0;
-        let sense = |i: usize| if scales[i] < 0.0 { -side[i] } else { side[i] };
-        let left = |i: usize| real::min(q_max[i] - angle[i], angle[i] - q_min[i]);
-        let away = Vector3::new(pose.sin_cos[0].1, pose.sin_cos[0].0, 0.0);
+        // Times |scale|, so that an elbow bent the other way counts the right way round.
+        let up = |i: usize| joints[i] * if scales[i] < 0.0 { -1.0 } else { 1.0 };
+        let above = |i: usize| (q_max[i] - angle[i]) * real::abs(scales[i]);
+        let below = |i: usize| (angle[i] - q_min[i]) * real::abs(scales[i]);
+        let (sin, cos) = pose.sin_cos[0];
+        let inwards = Vector3::new(-cos, -sin, 0.0);
+        let [one, two, three] = [up(0), up(1), up(2)];
         Near {
-            n: [
-                joints[0] * sense(0),
-                joints[1] * sense(1),
-                joints[2] * sense(2),
-                -away,
-            ],
+            n: [one, -one, two, -two, three, -three, inwards],
             d: [
-                left(0) * real::abs(scales[0]),
-                left(1) * real::abs(scales[1]),
-                left(2) * real::abs(scales[2]),
+                above(0),
+                below(0),
+                above(1),
+                below(1),
+                above(2),
+                below(2),
                 radius - radius_min,
             ],
             slowing_time,
@@ -108,7 +118,7 @@ impl Limits {
 
 impl Near {
     /// The edges of a nominal that is `e` (m) ahead of the handle.
-    pub fn edges(&self, e: &Vector3<Real>) -> [Edge<3>; 4] {
+    pub fn edges(&self, e: &Vector3<Real>) -> [Edge<3>; EDGES] {
         core::array::from_fn(|j| {
             let (n, d) = (self.n[j], self.d[j]);
             Edge {

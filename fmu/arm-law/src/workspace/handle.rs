@@ -1,6 +1,7 @@
 //! The axes of the handle within the workspace: those of [`admittance`], held by edges where any is near.
 
 use super::Near;
+use super::edges::EDGES;
 use admittance::axis::{AxisProposal, AxisSensed, Driven};
 use admittance::edges::Edge;
 use admittance::settling::Keep;
@@ -11,137 +12,139 @@ use nalgebra::Vector3;
 /// The handle's three axes between two ticks.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct HandleAxes(pub Axes<3>);
-
-/// Where the handle is.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Place {
-    /// Its position, m.
-    pub p: Vector3<Real>,
-    /// The limits of the workspace, where any is near.
+pub struct HandleAxes {
+    /// The axes.
+    pub axes: Axes<3>,
+    /// The limits of the workspace during a tick at which any is near; none between ticks.
+    #[cfg_attr(feature = "serde", serde(skip))]
     pub near: Option<Near>,
 }
 
-/// The axes at a tick, before they act.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Sensed {
-    axes: [AxisSensed; 3],
-    near: Option<Near>,
-}
+impl HandleAxes {
+    /// The edges of a nominal that is ahead of the handle as proposed.
+    fn edges(near: &Near, proposal: &[AxisProposal; 3]) -> [Edge<3>; EDGES] {
+        near.edges(&proposal.map(|axis| axis.e_nr()).into())
+    }
 
-/// What they ask for.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Proposal {
-    axes: [AxisProposal; 3],
-    edges: Option<Held>,
-}
+    #[cold]
+    #[inline(never)]
+    fn propose_within(
+        &self,
+        near: &Near,
+        sensed: &[AxisSensed; 3],
+        f_h: &Vector3<Real>,
+        request: &Request<3>,
+    ) -> [AxisProposal; 3] {
+        let mut proposal = self.axes.propose(sensed, f_h, request);
+        let edges = Self::edges(near, &proposal);
+        self.axes.keep_within(&edges, &mut proposal);
+        proposal
+    }
 
-/// The edges of a proposal, and whether they hold it back.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Held {
-    edges: [Edge<3>; 4],
-    acts: bool,
+    #[cold]
+    #[inline(never)]
+    fn driven_within(
+        &self,
+        near: &Near,
+        proposal: &[AxisProposal; 3],
+        f: &Vector3<Real>,
+    ) -> [Driven; 3] {
+        let edges = Self::edges(near, proposal);
+        let driven = self.axes.driven(proposal, f);
+        self.axes.driven_within(&edges, proposal, driven, f)
+    }
 }
 
 impl Coordinates<3> for HandleAxes {
-    type Place = Place;
+    type Place = Vector3<Real>;
     type Request = Request<3>;
-    type Sensed = Sensed;
-    type Proposal = Proposal;
+    type Sensed = [AxisSensed; 3];
+    type Proposal = [AxisProposal; 3];
     type Driven = [Driven; 3];
 
     fn settings(&self) -> &Settings {
-        self.0.settings()
+        self.axes.settings()
     }
 
     #[inline]
     fn is_engaged(&self) -> bool {
-        self.0.is_engaged()
+        self.axes.is_engaged()
     }
 
     #[inline]
-    fn sense(&self, place: &Place) -> Sensed {
-        Sensed {
-            axes: self.0.sense(&place.p),
-            near: place.near,
+    fn sense(&self, p: &Vector3<Real>) -> [AxisSensed; 3] {
+        self.axes.sense(p)
+    }
+
+    #[inline]
+    fn stored(&self, sensed: &[AxisSensed; 3]) -> Real {
+        self.axes.stored(sensed)
+    }
+
+    fn springs(&self, sensed: &[AxisSensed; 3]) -> Real {
+        self.axes.springs(sensed)
+    }
+
+    fn masses(&self, sensed: &[AxisSensed; 3]) -> Real {
+        self.axes.masses(sensed)
+    }
+
+    fn reduce(&self, sensed: &mut [AxisSensed; 3], keep: Keep) {
+        self.axes.reduce(sensed, keep);
+    }
+
+    #[inline]
+    fn propose(
+        &self,
+        sensed: &[AxisSensed; 3],
+        f_h: &Vector3<Real>,
+        request: &Request<3>,
+    ) -> [AxisProposal; 3] {
+        match &self.near {
+            None => self.axes.propose(sensed, f_h, request),
+            Some(near) => self.propose_within(near, sensed, f_h, request),
         }
     }
 
     #[inline]
-    fn stored(&self, sensed: &Sensed) -> Real {
-        self.0.stored(&sensed.axes)
-    }
-
-    fn springs(&self, sensed: &Sensed) -> Real {
-        self.0.springs(&sensed.axes)
-    }
-
-    fn masses(&self, sensed: &Sensed) -> Real {
-        self.0.masses(&sensed.axes)
-    }
-
-    fn reduce(&self, sensed: &mut Sensed, keep: Keep) {
-        self.0.reduce(&mut sensed.axes, keep);
+    fn f(&self, proposal: &[AxisProposal; 3]) -> Vector3<Real> {
+        self.axes.f(proposal)
     }
 
     #[inline]
-    fn propose(&self, sensed: &Sensed, f_h: &Vector3<Real>, request: &Request<3>) -> Proposal {
-        let mut proposal = Proposal {
-            axes: self.0.propose(&sensed.axes, f_h, request),
-            edges: None,
-        };
-        if let Some(near) = &sensed.near {
-            let e = proposal.axes.map(|axis| axis.e_nr());
-            let edges = near.edges(&e.into());
-            let acts = self.0.keep_within(&edges, &mut proposal.axes);
-            proposal.edges = Some(Held { edges, acts });
-        }
-        proposal
-    }
-
-    #[inline]
-    fn f(&self, proposal: &Proposal) -> Vector3<Real> {
-        self.0.f(&proposal.axes)
-    }
-
-    #[inline]
-    fn driven(&self, proposal: &Proposal, f: &Vector3<Real>) -> [Driven; 3] {
-        let driven = self.0.driven(&proposal.axes, f);
-        match &proposal.edges {
-            None => driven,
-            Some(Held { edges, acts }) => {
-                self.0
-                    .driven_within(edges, *acts, &proposal.axes, driven, f)
-            }
+    fn driven(&self, proposal: &[AxisProposal; 3], f: &Vector3<Real>) -> [Driven; 3] {
+        match &self.near {
+            None => self.axes.driven(proposal, f),
+            Some(near) => self.driven_within(near, proposal, f),
         }
     }
 
     #[inline]
-    fn taken(&self, proposal: &Proposal, driven: &[Driven; 3], f: &Vector3<Real>) -> Real {
-        self.0.taken(&proposal.axes, driven, f)
+    fn taken(&self, proposal: &[AxisProposal; 3], driven: &[Driven; 3], f: &Vector3<Real>) -> Real {
+        self.axes.taken(proposal, driven, f)
     }
 
     #[inline]
-    fn supplied(&self, proposal: &Proposal, driven: &[Driven; 3]) -> Real {
-        self.0.supplied(&proposal.axes, driven)
+    fn supplied(&self, proposal: &[AxisProposal; 3], driven: &[Driven; 3]) -> Real {
+        self.axes.supplied(proposal, driven)
     }
 
     #[inline]
-    fn exchanged(&self, proposal: &Proposal, driven: &[Driven; 3]) -> Real {
-        self.0.exchanged(&proposal.axes, driven)
+    fn exchanged(&self, proposal: &[AxisProposal; 3], driven: &[Driven; 3]) -> Real {
+        self.axes.exchanged(proposal, driven)
     }
 
     #[inline]
-    fn show(&self, proposal: &Proposal, driven: &[Driven; 3], tick: &mut Tick<3>) {
-        self.0.show(&proposal.axes, driven, tick);
+    fn show(&self, proposal: &[AxisProposal; 3], driven: &[Driven; 3], tick: &mut Tick<3>) {
+        self.axes.show(proposal, driven, tick);
     }
 
     #[inline]
-    fn commit(&mut self, proposal: &Proposal, driven: &[Driven; 3], f: &Vector3<Real>) {
-        self.0.commit(&proposal.axes, driven, f);
+    fn commit(&mut self, proposal: &[AxisProposal; 3], driven: &[Driven; 3], f: &Vector3<Real>) {
+        self.axes.commit(proposal, driven, f);
     }
 
     fn rest(&mut self) {
-        self.0.rest();
+        self.axes.rest();
     }
 }

@@ -62,7 +62,7 @@ pub struct Workspace {
     #[parameter(173, name = "workspace.radius_min", unit = METRE, range = NOT_NEGATIVE, start = 0.1)]
     pub radius_min: Real,
     /// Slowing: a limit is approached no faster than the distance that is left over this time, at least T.
-    #[parameter(174, name = "workspace.slowing_time", unit = SECOND, range = POSITIVE, start = 0.1)]
+    #[parameter(174, name = "workspace.slowing_time", unit = SECOND, range = POSITIVE, start = 0.2)]
     pub slowing_time: Real,
 }
 
