@@ -21,11 +21,12 @@
 
 use crate::Real;
 use crate::bounds::Interval;
-use crate::real::{max, min};
+use crate::real::{abs, max, min};
 use nalgebra::SVector;
 
-/// Rounds of the search. Two edges that meet at a right angle take one; each round leaves cos² of the angle between two.
-const ROUNDS: u32 = 12;
+/// Rounds of the search at most. Edges at right angles take one; each round leaves cos² of the angle between two, as W
+/// measures it.
+const ROUNDS: u32 = 24;
 
 /// n·v_m ≤ c; one with n = 0 bounds nothing.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -62,17 +63,21 @@ pub fn kept<const N: usize, const E: usize>(
     let mut v = *free;
     let mut lambda = [0.0; E];
     for _ in 0..ROUNDS {
-        if keeps(edges, &v) {
-            break;
-        }
+        let mut is_found = true;
         for (edge, lambda) in edges.iter().zip(&mut lambda) {
             let along = edge.n.component_div(weight);
             let size = edge.n.dot(&along);
-            if size > 0.0 {
+            let beyond = edge.beyond(&v);
+            if size > 0.0 && (beyond > 0.0 || *lambda > 0.0) {
                 let before = *lambda;
-                *lambda = max(0.0, before + edge.beyond(&v) / size);
+                *lambda = max(0.0, before + beyond / size);
                 v -= along * (*lambda - before);
+                let rounding = 8.0 * Real::EPSILON * (edge.n.abs().dot(&v.abs()) + edge.c);
+                is_found &= abs((*lambda - before) * size) <= rounding;
             }
+        }
+        if is_found {
+            break;
         }
     }
     for (v, interval) in v.iter_mut().zip(intervals) {

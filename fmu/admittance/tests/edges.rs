@@ -77,7 +77,9 @@ fn a_velocity_within_all_edges_is_left_as_it_is_to_the_bit() {
 #[test]
 fn of_all_velocities_within_three_edges_it_is_the_nearest_by_the_weight() {
     let mut random = Random(2);
-    for _ in 0..100 {
+    let mut poor = 0;
+    for _ in 0..300 {
+        let mut worst = 1.0_f64;
         let edges: [Edge<3>; 3] = core::array::from_fn(|_| Edge {
             n: random.vector(),
             c: random.next().max(0.0),
@@ -89,11 +91,14 @@ fn of_all_velocities_within_three_edges_it_is_the_nearest_by_the_weight() {
         for _ in 0..2000 {
             let near = v + random.vector() * 10_f64.powf(2.0 * random.next() - 2.0);
             if keeps(&edges, &near) {
-                // 12 rounds leave cos²ⁿ of the angle between two edges: a few in a thousand where it is sharp.
-                assert!(distance(&near) > distance(&v) * 0.98 - 1e-9);
+                worst = worst.min(distance(&near) / distance(&v));
             }
         }
+        assert!(worst > 0.99, "{worst}");
+        poor += u32::from(worst < 0.9999);
     }
+    // Where two edges meet at a sharp angle, as W measures it, the rounds come to an end before the search.
+    assert!(poor < 10, "{poor} of 300");
 }
 
 #[test]

@@ -222,16 +222,16 @@ impl Kinematics {
 
 /// Of [[a, b], [c, d]]: σ₁ + σ₂ = √((a + d)² + (b − c)²) and σ₁ − σ₂ = √((a − d)² + (b + c)²), up to the sign of det.
 fn largest_singular_value([[a, b], [c, d]]: [[Real; 2]; 2]) -> Real {
-    0.5 * (length(a + d, b - c) + length(a - d, b + c))
-}
-
-/// √(x² + y²): in one instruction for lengths whose squares neither overflow nor vanish.
-#[inline]
-fn length(x: Real, y: Real) -> Real {
-    let size = real::abs(x) + real::abs(y);
-    if size > 1e-15 && size < 1e15 {
-        real::sqrt(x * x + y * y)
+    let size = real::abs(a) + real::abs(b) + real::abs(c) + real::abs(d);
+    let (sum, difference) = if size > 1e-15 && size < 1e15 {
+        // Squares neither overflow nor vanish beside the other pair's: √ is one instruction.
+        let square = |x: Real, y: Real| x * x + y * y;
+        (
+            real::sqrt(square(a + d, b - c)),
+            real::sqrt(square(a - d, b + c)),
+        )
     } else {
-        real::hypot(x, y)
-    }
+        (real::hypot(a + d, b - c), real::hypot(a - d, b + c))
+    };
+    0.5 * (sum + difference)
 }

@@ -24,8 +24,6 @@ pub struct TaskSpace {
     sampled: Sampled<HandleAxes, 3>,
     limits: Limits,
     workspace: Option<edges::Limits>,
-    /// the joint angles of the last tick in the loop, rad
-    q: Vector3<Real>,
 }
 
 impl TaskSpace {
@@ -48,7 +46,6 @@ impl TaskSpace {
                 .rated(&limits.tau_rate)?,
             limits,
             workspace: None,
-            q: Vector3::zeros(),
         })
     }
 
@@ -102,13 +99,12 @@ impl TaskSpace {
         shown: &mut HandleTick,
     ) -> Result<(), NotFinite> {
         let is_near = match &self.workspace {
-            Some(limits) if !limits.are_far(q, &self.q, pose) => {
+            Some(limits) if !limits.are_far(q, self.sampled.ledger().motion(), pose) => {
                 self.sampled.law_mut().near = Some(limits.at(q, pose));
                 true
             }
             _ => false,
         };
-        self.q = *q;
         let inputs = Inputs {
             place: &pose.p,
             q,

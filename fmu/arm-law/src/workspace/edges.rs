@@ -28,6 +28,8 @@ pub struct Limits {
     wide: Vector3<Real>,
     /// slowing_time in samples: how much further a joint goes that is slowed from now on, over what it moved in the last one
     samples: Real,
+    /// distance from the yaw axis below which it is near, m
+    radius: Real,
     /// the handle's largest distance from the pitch axes, m
     arm: Real,
 }
@@ -54,6 +56,7 @@ impl Limits {
             middle: (q_min + q_max) / 2.0,
             wide: (q_max - q_min).map(|range| range / 2.0 - LOOK),
             samples: workspace.slowing_time / T,
+            radius: workspace.radius_min + LOOK_RADIUS,
             arm: kinematics.L1 + kinematics.handle_x + real::abs(kinematics.handle_z),
         }
     }
@@ -68,13 +71,17 @@ impl Limits {
         }
     }
 
-    /// Whether no limit is near at joint angles `q` (rad), where the arm is at `pose`, one sample after it was at `last`.
+    /// Whether no limit is near at joint angles `q` (rad), where the arm is at `pose` and comes from a `motion` (rad) in a
+    /// sample, as far as that is known.
     #[inline]
-    pub fn are_far(&self, q: &Vector3<Real>, last: &Vector3<Real>, pose: &Pose) -> bool {
-        let go_on = (q - last).map(|moved| real::abs(moved) * self.samples);
+    pub fn are_far(&self, q: &Vector3<Real>, motion: Option<&Vector3<Real>>, pose: &Pose) -> bool {
+        let Some(motion) = motion else {
+            return false;
+        };
+        let go_on = motion.map(|moved| real::abs(moved) * self.samples);
         let radius = pose.J.m21 * pose.sin_cos[0].1 - pose.J.m11 * pose.sin_cos[0].0;
         (0..3).all(|i| real::abs(q[i] - self.middle[i]) + go_on[i] < self.wide[i])
-            && self.workspace.radius_min + LOOK_RADIUS + (go_on[1] + go_on[2]) * self.arm < radius
+            && self.radius + (go_on[1] + go_on[2]) * self.arm < radius
     }
 
     /// The limits at joint angles `q` (rad), where the arm is at `pose`.
