@@ -18,7 +18,7 @@ fn refused(change: Change) -> String {
 fn refusals_name_the_variable_the_value_and_the_range() {
     let positive = "expected a finite value, at least 1e-6";
     let not_negative = "expected a finite value not less than 0";
-    let cases: [(Change, String); 25] = [
+    let cases: [(Change, String); 28] = [
         (
             |c| c.parameters.law = 5, // natural: a comparator, for one axis
             format!("law = 5: {LAWS}"),

@@ -59,9 +59,9 @@ fn pushed_to_any_end_the_nominal_stops_at_a_limit_and_the_same_force_brings_the_
                 assert!(within, "{f_h:?} in space {space}: {least:?} {most:?}");
             }
             assert!(c.outputs.held != 0, "{f_h:?} in space {space}");
-            let way = (Vector3::from(c.outputs.p) - start).dot(&f_h.into());
+            let way = (Vector3::from(c.outputs.p) - start).dot(&Vector3::from(f_h));
             pushed(&mut c, &mut robot, 6000, f_h.map(|f| -f));
-            let back = (Vector3::from(c.outputs.p) - start).dot(&f_h.into());
+            let back = (Vector3::from(c.outputs.p) - start).dot(&Vector3::from(f_h));
             assert!(way > 0.5 && back < 0.0, "{f_h:?}: {way} {back}");
             assert!(c.outputs.tank >= 10.0 - 1e-9 && c.outputs.share == 1.0);
         }

@@ -47,15 +47,6 @@ pub struct Nominal {
 }
 
 impl Nominal {
-    /// Brings it to rest at the sensed angles `q` (rad), without a mass.
-    #[inline]
-    pub(crate) fn rest_at(&mut self, q: &Vector3<Real>) {
-        self.q_n = *q;
-        self.dq_n = Vector3::zeros();
-        self.e_nr = Vector3::zeros();
-        self.M_n = Matrix3::zeros();
-    }
-
     /// At the sensed angles `q` (rad), at rest, with the mass matrix `M_n` (kg·m²).
     pub fn at(q: &Vector3<Real>, M_n: Matrix3<Real>) -> Self {
         Self {
