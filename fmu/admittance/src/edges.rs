@@ -51,9 +51,9 @@ pub fn keeps<const N: usize>(edges: &[Edge<N>], v_m: &SVector<Real, N>) -> bool 
     edges.iter().all(|edge| edge.beyond(v_m) <= 0.0)
 }
 
-/// The nominals' velocities within `edges` and `intervals`, for those that they would have without, `free`; `weight` is W,
-/// > 0. The intervals are kept to exactly, and so is the energy. Where an interval acts beside an edge the edge may be
-/// passed: it is a limit for all samples, and the next one sees how far the nominals have come.
+/// The nominals' velocities within `edges` and `intervals`, for those that they would have without, `free`. All entries of
+/// W, the `weight`, are positive. The intervals are kept to exactly, and so is the energy. Where an interval acts beside an
+/// edge the edge may be passed: it is a limit for all samples, and the next one sees how far the nominals have come.
 pub fn kept<const N: usize, const E: usize>(
     edges: &[Edge<N>; E],
     intervals: &[Interval; N],

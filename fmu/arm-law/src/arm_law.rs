@@ -298,13 +298,13 @@ impl ArmLaw {
             Demand::Run { authority, freedom } => {
                 let f_h = &ft.hand.force;
                 let seen = self.stiff_hand.sensed(&pose.p, f_h);
-                let of_hand = seen
-                    .as_ref()
-                    .map_or_else(Vector3::zeros, stiff_hand::damping);
+                let damping = Vector3::repeat(damping);
                 let request = Request {
                     authority,
                     hold: freedom <= 0.0,
-                    damping: Vector3::repeat(damping) + of_hand,
+                    damping: seen
+                        .as_ref()
+                        .map_or(damping, |seen| damping + stiff_hand::damping(seen)),
                     speed: self.speed(freedom),
                 };
                 self.law.step(pose, q, f_h, &request, outcome, nominal)?;

@@ -78,10 +78,11 @@ impl Limits {
         let Some(motion) = motion else {
             return false;
         };
-        let go_on = motion.map(|moved| real::abs(moved) * self.samples);
+        let moved = real::abs(motion.x) + real::abs(motion.y) + real::abs(motion.z);
+        let go_on = moved * self.samples;
         let radius = pose.J.m21 * pose.sin_cos[0].1 - pose.J.m11 * pose.sin_cos[0].0;
-        (0..3).all(|i| real::abs(q[i] - self.middle[i]) + go_on[i] < self.wide[i])
-            && self.radius + (go_on[1] + go_on[2]) * self.arm < radius
+        (0..3).all(|i| real::abs(q[i] - self.middle[i]) + go_on < self.wide[i])
+            && self.radius + go_on * self.arm < radius
     }
 
     /// The limits at joint angles `q` (rad), where the arm is at `pose`.

@@ -12,6 +12,9 @@
 //! Towards a limit the nominal so slows as exp(−t/t_s) and comes to rest there; away from it nothing is slowed. A nominal
 //! that is beyond, because the arm was or the spring has slipped, may only come back.
 //!
+//! A law that winds up, 1 or 3, or 2 beyond its torques, so also keeps its nominal where the arm can go, to first order. The
+//! paper has no such limits: its experiments are repeated without.
+//!
 //! In joint space these are intervals of v_m, like its other bounds. In task space they lie across the handle's axes:
 //! [`admittance::edges`] holds the nominal back along the limit alone, so that it slides on along it. With
 //! q_n = q + J⁻¹ e_nr to first order and each line times det J's factor, nothing is divided by what vanishes at a singularity:
