@@ -14,7 +14,7 @@ WAYS = ("+x", "-x", "+y", "-y", "+z", "-z")
 def test_limits_change_nothing_before_they_act(experiment: Experiment, way: str) -> None:
     limited, free = experiment.recordings[f"task_{way}"], experiment.recordings[f"unlimited_{way}"]
     first = int(np.argmax(limited["controller.held"]))
-    assert limited.time[first] > 0.5
+    assert limited.time[first] > 0.2
     assert np.array_equal(limited["plant.p[1]"][:first], free["plant.p[1]"][:first])
 
 

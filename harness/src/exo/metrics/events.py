@@ -28,7 +28,7 @@ def leaving_delay(
 
 @metric
 def return_delay(run: Recording, *, column: str, at: float) -> float:
-    """Time after `at` (s) until `column` is back at its first value, s: from wherever it is at `at`. NaN if it stays away."""
+    """Time (s) after `at` (s) until `column` is back at its first value, from either side. NaN if it stays away."""
     away = run[column] - run[column][0]
     since = window(run.time, after=at, before=None)
     back = since & (np.sign(away[np.argmax(since)]) * away <= 0.0)
