@@ -22,7 +22,7 @@ fn poses() -> impl Iterator<Item = Vector3<f64>> {
 
 /// Speeds (rad/s) up to those at which a limit is near everywhere, and beyond.
 fn speeds() -> impl Iterator<Item = Vector3<f64>> {
-    poses().map(|q| (q * 1e4).map(|x| 2.5 * (2.0 * x.abs().fract() - 1.0)))
+    poses().map(|q| (q * 1e4).map(|x| 1.2 * (2.0 * x.abs().fract() - 1.0)))
 }
 
 fn limits(kinematics: Kinematics) -> Limits {

@@ -28,18 +28,21 @@ impl<const N: usize> Axes<N> {
     /// are looked at anew.
     pub fn driven_within<const E: usize>(
         &self,
-        edges: &[Edge<N>; E],
+        edges: impl FnOnce() -> [Edge<N>; E],
         proposal: &[AxisProposal; N],
         driven: [Driven; N],
         f: &SVector<Real, N>,
     ) -> [Driven; N] {
         let feels = self.settings.law.row().feels_what_is_delivered();
-        let is_proposed = || (0..N).all(|i| f[i] == proposal[i].f_demand());
-        let is_held = || proposal.iter().any(|axis| axis.wish().held);
-        if !feels || is_proposed() || (!is_held() && keeps(edges, &velocities(&driven))) {
+        if !feels || (0..N).all(|i| f[i] == proposal[i].f_demand()) {
+            return driven; // as proposed
+        }
+        let edges = edges();
+        let is_held = proposal.iter().any(|axis| axis.wish().held);
+        if !is_held && keeps(&edges, &velocities(&driven)) {
             return driven;
         }
-        self.within(edges, proposal, |i| Some(f[i]))
+        self.within(&edges, proposal, |i| Some(f[i]))
     }
 
     fn within<const E: usize>(

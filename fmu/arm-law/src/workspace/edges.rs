@@ -11,7 +11,7 @@ pub const EDGES: usize = 7;
 
 /// Distance from a limit (rad) from which on it is looked at, beside what slowing takes: more than a nominal that runs ahead
 /// of its joint.
-const LOOK: Real = 0.4;
+const LOOK: Real = 0.25;
 /// The same for the distance from the yaw axis, m.
 const LOOK_RADIUS: Real = 0.05;
 

@@ -49,9 +49,9 @@ impl HandleAxes {
         proposal: &[AxisProposal; 3],
         f: &Vector3<Real>,
     ) -> [Driven; 3] {
-        let edges = Self::edges(near, proposal);
+        let edges = || Self::edges(near, proposal);
         let driven = self.axes.driven(proposal, f);
-        self.axes.driven_within(&edges, proposal, driven, f)
+        self.axes.driven_within(edges, proposal, driven, f)
     }
 }
 
