@@ -128,6 +128,14 @@ def test_time_above_counts_the_ticks_above_a_level() -> None:
     assert basic.time_above(run, column="x", level=1.0) == 0.0
 
 
+@pytest.mark.parametrize("side", [1.0, -1.0])
+def test_return_delay_counts_from_the_turn_on_either_side_and_is_nan_for_what_stays_away(side: float) -> None:
+    z = 0.4 + side * np.where(TIME < 5.0, TIME, np.maximum(10.0 - TIME, -1.0))  # out, and home at 10 s
+    z[TIME > 8.0] = 0.4 - side * 0.01
+    assert events.return_delay(recording(time=TIME, z=z), column="z", at=6.0) == pytest.approx(2.01)
+    assert math.isnan(events.return_delay(recording(time=TIME, z=z + side * 20.0 * (TIME > 1.0)), column="z", at=6.0))
+
+
 def test_mean_rate_is_taken_between_two_ticks() -> None:
     run = recording(time=TIME, z=TIME**2)
     assert basic.mean_rate(run, column="z", first=2.0, last=4.0) == pytest.approx(6.0)

@@ -1,5 +1,7 @@
 //! N axes, without a ledger: what several scalars do at one tick.
 
+mod within;
+
 use crate::axis::{Axis, AxisProposal, AxisRequest, AxisSensed, Driven};
 use crate::bounds::Bounds;
 use crate::motion::Sampling;

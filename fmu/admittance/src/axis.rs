@@ -1,5 +1,7 @@
 //! One axis: slip, midpoint, clamp, reset.
 
+mod within;
+
 use crate::bounds::Interval;
 use crate::midpoint::{self, Midpoint, Rule, Sample, slower};
 use crate::motion::Sampling;

@@ -128,7 +128,7 @@ pub struct Interval {
 
 impl Interval {
     /// All velocities.
-    const ALL: Self = Self {
+    pub const ALL: Self = Self {
         low: Real::NEG_INFINITY,
         high: Real::INFINITY,
     };
@@ -152,6 +152,17 @@ impl Interval {
         Self {
             low: real::max(self.low, -speed),
             high: real::min(self.high, speed),
+        }
+    }
+
+    /// The part of it in which a nominal at `q_n` (m) comes near `q_min` and `q_max` (m) no faster than the distance that
+    /// is left over `time` (s). Beyond them it may only move inwards.
+    #[must_use]
+    #[inline]
+    pub fn approaching(self, q_n: Real, [q_min, q_max]: [Real; 2], time: Real) -> Self {
+        Self {
+            low: real::max(self.low, real::min(0.0, (q_min - q_n) / time)),
+            high: real::min(self.high, real::max(0.0, (q_max - q_n) / time)),
         }
     }
 

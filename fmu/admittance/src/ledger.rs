@@ -274,6 +274,12 @@ impl<const N: usize> Ledger<N> {
         real::abs(done) + from.map_or(0.0, since)
     }
 
+    /// How far the actuators moved in the sample before the last tick, m or rad; `None` where nobody knows.
+    #[inline]
+    pub const fn motion(&self) -> Option<&SVector<Real, N>> {
+        self.step.as_ref()
+    }
+
     /// Counts positions from a place that is further on by `by` (m).
     pub fn count_from(&mut self, by: &SVector<Real, N>) {
         self.q = self.q.map(|q| q - by);

@@ -122,6 +122,7 @@ pub mod axis;
 pub mod bounds;
 pub mod budget;
 pub mod comparator;
+pub mod edges;
 pub mod encoder;
 pub mod hand;
 pub mod law;

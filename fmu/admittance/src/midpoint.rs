@@ -109,6 +109,14 @@ impl Rule {
         Midpoint { v_m, y }
     }
 
+    /// What multiplies v_m in the nominal's equation, N·s/m: that of [`coupled`](Self::coupled), or of
+    /// [`driven`](Self::driven).
+    #[inline]
+    pub fn inertia(&self, sample: &Sample, is_coupled: bool) -> Real {
+        let driven = self.M_2T + self.D_n(sample);
+        if is_coupled { driven + self.c } else { driven }
+    }
+
     /// The coupling's answer to a nominal that moves with `v_m` (m/s) over the sample: y at its middle (m/s).
     ///
     /// y = w + K_P(e + T w/2), w = v_m − dq

@@ -21,7 +21,7 @@
 //! A tick, with the equations of the paper's task space:
 //! 1. p and J from q, f_h turned into the base frame if it is sensed in another one: [`arm_law::kinematics`].
 //! 2. On each axis Lambda_n ddp_n + D_n dp_n = f_h − alpha y, y = de_nr + K_P e_nr, f_a = K y, near a singularity with
-//!    more damping: [`admittance`], [`arm_law::singularity`].
+//!    more damping, within joint limits: [`admittance`], [`arm_law::singularity`], [`arm_law::workspace`].
 //! 3. tau_a = Jᵀ f_a, within ±tau_max: [`arm_law::limits`]. What the limits leave is what the nominal of laws 3 and 4 feels.
 //! 4. The ledger counts the work that tau_a does at the joints: [`arm_law::task_space`].
 //!

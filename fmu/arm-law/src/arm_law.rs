@@ -70,6 +70,7 @@ impl ArmLaw {
             limits,
             space,
             joint,
+            workspace,
             supervision,
         } = parameters.checked()?;
         let (kinematics, T) = (parameters.kinematics, settings.T);
@@ -82,15 +83,17 @@ impl ArmLaw {
             conditioner: Conditioner::new(parameters.ft, T)?,
             encoders: parameters.encoder.checks(&reach, T),
             law: match space {
-                Space::Task => {
-                    InSpace::Task(TaskSpace::new(settings, gains, bounds, reach, limits)?)
-                }
-                Space::Joint if parameters.form == POSITION_SERVO => InSpace::Servo(
-                    JointServo::new(settings, &joint, kinematics, reach, limits.tau_max)?,
+                Space::Task => InSpace::Task(
+                    TaskSpace::new(settings, gains, bounds, reach, limits)?
+                        .within(workspace, kinematics),
                 ),
-                Space::Joint => InSpace::Joint(JointSpace::new(
-                    settings, &joint, kinematics, reach, limits,
-                )?),
+                Space::Joint if parameters.form == POSITION_SERVO => InSpace::Servo(
+                    JointServo::new(settings, &joint, kinematics, reach, limits.tau_max)?
+                        .within(workspace),
+                ),
+                Space::Joint => InSpace::Joint(
+                    JointSpace::new(settings, &joint, kinematics, reach, limits)?.within(workspace),
+                ),
             },
             supervisor: supervision
                 .map(|supervision| Supervisor::new(&supervision, T))
@@ -134,7 +137,7 @@ impl ArmLaw {
             bounds.q_max -= p_0;
         }
         let by = q_0 - self.origin.map_or(Vector3::zeros(), |before| *before.q());
-        task_space.count_from(&by, bounds)?;
+        task_space.count_from(q_0, &by, bounds)?;
         self.q -= by;
         self.origin = Some(origin);
         Ok(())
@@ -360,13 +363,13 @@ impl ArmLaw {
             Demand::Run { authority, freedom } => {
                 let f_h = &ft.hand.force;
                 let seen = self.stiff_hand.sensed(&pose.p, f_h);
-                let of_hand = seen
-                    .as_ref()
-                    .map_or_else(Vector3::zeros, stiff_hand::damping);
+                let damping = Vector3::repeat(damping);
                 let request = Request {
                     authority,
                     hold: freedom <= 0.0,
-                    damping: Vector3::repeat(damping) + of_hand,
+                    damping: seen
+                        .as_ref()
+                        .map_or(damping, |seen| damping + stiff_hand::damping(seen)),
                     speed: self.speed(freedom),
                     after: ran.after,
                 };

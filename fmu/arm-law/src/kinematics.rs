@@ -56,6 +56,17 @@ impl Default for Pose {
     }
 }
 
+/// How joint angles and the distance from the yaw axis change with the handle's position.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Slopes {
+    /// ∂qᵢ/∂p, base frame, each times its scale: finite at singularities, too.
+    pub joints: [Vector3<Real>; 3],
+    /// ϱ for the yaw axis (m), D = L₁(h_x sin q₃ + h_z cos q₃) for the pitch axes (m²).
+    pub scales: [Real; 3],
+    /// ϱ, m.
+    pub radius: Real,
+}
+
 /// Sine and cosine of three angles: elementary functions are called once an angle.
 pub type SinCos = [(Real, Real); 3];
 
@@ -161,6 +172,26 @@ impl Kinematics {
         J
     }
 
+    /// The rows of J⁻¹ = [ −s₁/ϱ  c₁/ϱ  0;  r_x c₁/D  r_x s₁/D  r_z/D;  −x c₁/D  −x s₁/D  −z/D ], each times what it is
+    /// divided by.
+    pub(crate) fn slopes(&self, sin_cos: &SinCos) -> Slopes {
+        let [(s_1, c_1), _, (s_3, c_3)] = *sin_cos;
+        let InPlane { x, z, r_x, r_z } = self.in_plane(sin_cos);
+        let (radius, D) = (
+            self.A1 + x,
+            self.L1 * (self.handle_x * s_3 + self.handle_z * c_3),
+        );
+        Slopes {
+            joints: [
+                Vector3::new(-s_1, c_1, 0.0),
+                Vector3::new(r_x * c_1, r_x * s_1, r_z),
+                Vector3::new(-x * c_1, -x * s_1, -z),
+            ],
+            scales: [radius, D, D],
+            radius,
+        }
+    }
+
     #[inline]
     fn in_plane(&self, sin_cos: &SinCos) -> InPlane {
         let [_, (s_2, c_2), _] = *sin_cos;
@@ -191,5 +222,16 @@ impl Kinematics {
 
 /// Of [[a, b], [c, d]]: σ₁ + σ₂ = √((a + d)² + (b − c)²) and σ₁ − σ₂ = √((a − d)² + (b + c)²), up to the sign of det.
 fn largest_singular_value([[a, b], [c, d]]: [[Real; 2]; 2]) -> Real {
-    0.5 * (real::hypot(a + d, b - c) + real::hypot(a - d, b + c))
+    let size = real::abs(a) + real::abs(b) + real::abs(c) + real::abs(d);
+    let (sum, difference) = if size > 1e-15 && size < 1e15 {
+        // Squares neither overflow nor vanish beside the other pair's: √ is one instruction.
+        let square = |x: Real, y: Real| x * x + y * y;
+        (
+            real::sqrt(square(a + d, b - c)),
+            real::sqrt(square(a - d, b + c)),
+        )
+    } else {
+        (real::hypot(a + d, b - c), real::hypot(a - d, b + c))
+    };
+    0.5 * (sum + difference)
 }

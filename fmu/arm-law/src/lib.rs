@@ -15,6 +15,7 @@
 //! | [`singularity`] | the damping that slows before a singularity |
 //! | [`stiff_hand`] | the damping that ends the swing at a hand too stiff for the gains |
 //! | [`supervision`] | when the law may act: states, faults, their diagnostics |
+//! | [`workspace`] | where the nominal may go: joint limits inside the law |
 //! | [`wrench`] | the hand's force from a six-axis force sensor: tare, tool weight, lever arm, faults, filter, deadband |
 //! | [`task_space`] | the law at the handle, its torques and its ledger at the joints |
 //!
@@ -44,6 +45,7 @@ pub mod space;
 pub mod stiff_hand;
 pub mod supervision;
 pub mod task_space;
+pub mod workspace;
 pub mod wrench;
 
 pub use admittance::{ParameterError, Real};

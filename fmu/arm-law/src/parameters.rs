@@ -9,6 +9,7 @@ use crate::nominal::NominalArm;
 use crate::singularity::Singularity;
 use crate::space::Space;
 use crate::supervision;
+use crate::workspace::Workspace;
 use crate::wrench::Sensor;
 use admittance::advice::{Advice, advise};
 use admittance::bounds::{boxed, or_none};
@@ -101,6 +102,9 @@ pub struct ArmParameters {
     /// The hand's force sensor.
     #[part]
     pub ft: Sensor,
+    /// Where the nominal may go.
+    #[part]
+    pub workspace: Workspace,
     /// Slowing before a singularity.
     #[part]
     pub singularity: Singularity,
@@ -144,6 +148,8 @@ pub struct Checked {
     pub space: Space,
     /// The form in joint space.
     pub joint: JointParameters,
+    /// Where the nominal may go; `None`: anywhere.
+    pub workspace: Option<Workspace>,
     /// Supervision; `None`: `engage` alone decides.
     pub supervision: Option<supervision::Parameters>,
 }
@@ -188,6 +194,7 @@ impl ArmParameters {
                 gains: self.joint.gains(&self.tau_max),
                 bounds: self.joint.bounds()?,
             },
+            workspace: self.workspace.checked(self.T)?,
             supervision: (self.supervision != 0).then_some(self.supervisor),
         })
     }

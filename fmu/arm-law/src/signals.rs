@@ -121,7 +121,7 @@ pub struct ArmOutputs {
     /// Whether sigma_min lies below singularity.sigma_slow, so that the nominal is damped more.
     #[output(19, boolean)]
     pub slowed: i32,
-    /// Whether hold, dp_n_max or the position box kept the nominal back at this tick.
+    /// Whether hold, dp_n_max, the position box or the workspace kept the nominal back at this tick.
     #[output(45, boolean)]
     pub held: i32,
     /// Share of the torques that the energy budget left at this tick; 1 unless something is wrong.

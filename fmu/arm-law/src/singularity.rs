@@ -7,13 +7,14 @@
 //! D_n,eff = D_n + D ((sigma_slow/sigma_min)² − 1)
 //! ```
 //!
-//! down to a quarter of sigma_slow, where the damping has reached 15 D and grows no further, so that the arm can be
-//! pulled out again. A steady push then moves the handle by f_h/D_n,eff. Damping only dissipates; the passivity argument
-//! holds as it is, for any course of sigma_min.
+//! down to a quarter of sigma_slow, where the damping has reached 15 D and grows no further: the nominal stays movable. A
+//! steady push then moves it by f_h/D_n,eff. Damping only dissipates; the passivity argument holds as it is, for any course
+//! of sigma_min.
 //!
-//! It slows and does not stop: a push that is hard or long enough still gets there. The start values bring 7 N that pull
-//! the arm straight for seconds to rest near 0.05 m/rad (a test), where the 400 N of f_max still bend the elbow against
-//! friction of 12 N·m.
+//! It slows the nominal and does not stop it, and it does not bring the arm back. What stops it are the joint limits of the
+//! [`workspace`](crate::workspace), which are on at the start and end at 0.065 m/rad or more for the exoskeleton arm. Without
+//! them 10 N get to 0.039 m/rad in two seconds. There the arm sticks: J leaves too little of the 400 N of f_max to overcome
+//! the elbow's stiction of 16 N·m, and neither 10 N nor 20 N bring it back (scenario `arm_workspace`).
 
 use admittance::parameters::in_range;
 use admittance::{ParameterError, Real, real};

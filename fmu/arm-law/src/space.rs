@@ -59,7 +59,8 @@ impl InSpace {
         }
     }
 
-    /// One tick in the loop. `request.speed` is that of the nominal's own coordinates, m/s or rad/s.
+    /// One tick in the loop. `request.speed` is that of the nominal's own coordinates, m/s or rad/s; `nominal` is one at rest
+    /// without a mass, and stays so in task space.
     #[inline]
     pub fn step(
         &mut self,
@@ -72,7 +73,7 @@ impl InSpace {
     ) -> Result<(), NotFinite> {
         match self {
             Self::Task(law) => {
-                nominal.rest_at(q); // it has no joints of its own
+                nominal.q_n = *q; // it has no joints of its own
                 law.step(pose, q, f_h, request, shown)
             }
             Self::Joint(law) => law.step(pose, q, f_h, request, shown, nominal),
@@ -90,7 +91,7 @@ impl InSpace {
     ) -> Result<(), NotFinite> {
         match self {
             Self::Task(law) => {
-                nominal.rest_at(q); // it has no joints of its own
+                nominal.q_n = *q; // it has no joints of its own
                 law.rest(pose, q, shown)
             }
             Self::Joint(law) => law.rest(pose, q, shown, nominal),
@@ -108,7 +109,7 @@ impl InSpace {
     ) {
         match self {
             Self::Task(law) => {
-                nominal.rest_at(q); // it has no joints of its own
+                nominal.q_n = *q; // it has no joints of its own
                 law.abandon(pose, shown);
             }
             Self::Joint(law) => law.abandon(pose, q, shown, nominal),

@@ -10,9 +10,10 @@
 //! counts as energy created, up to some MJ: it is what these laws would have to be able to give back.
 
 use crate::handle::{HandleTick, NotFinite};
-use crate::kinematics::Pose;
+use crate::kinematics::{Kinematics, Pose};
 use crate::limits::{AtTheHandle, Limits, TorqueLimiting};
-use admittance::tick::{Inputs, Sampled, Tick};
+use crate::workspace::{HandleAxes, Workspace, edges};
+use admittance::tick::{Coordinates, Inputs, Sampled, Tick};
 use admittance::{Axes, Bounds, Gains, Ledger, ParameterError, Reach, Real, Request, Settings};
 use nalgebra::Vector3;
 
@@ -20,8 +21,9 @@ use nalgebra::Vector3;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct TaskSpace {
-    sampled: Sampled<Axes<3>, 3>,
+    sampled: Sampled<HandleAxes, 3>,
     limits: Limits,
+    workspace: Option<edges::Limits>,
 }
 
 impl TaskSpace {
@@ -40,22 +42,37 @@ impl TaskSpace {
         let mut axes = Axes::new(settings, gains)?;
         axes.bound(bounds)?;
         Ok(Self {
-            sampled: Sampled::new(axes, &reach)?.rated(&limits.tau_rate)?,
+            sampled: Sampled::new(HandleAxes { axes, near: None }, &reach)?
+                .rated(&limits.tau_rate)?,
             limits,
+            workspace: None,
         })
     }
 
-    /// Counts the joint angles from a place that is further on by `by` (rad), and keeps to `bounds`, which are counted from
-    /// where the handle is there. While the law is out of the loop.
+    /// The same with a nominal that keeps within `workspace`, which has been checked; `None`: it may go anywhere.
+    #[must_use]
+    pub fn within(self, workspace: Option<Workspace>, kinematics: Kinematics) -> Self {
+        Self {
+            workspace: workspace.map(|workspace| {
+                edges::Limits::new(workspace, kinematics, self.sampled.law().settings().T)
+            }),
+            ..self
+        }
+    }
+
+    /// Counts the joint angles from `q_0` (rad), a place that is further on by `by` (rad), and keeps to `bounds`, which are
+    /// counted from where the handle is there. While the law is out of the loop.
     ///
     /// # Errors
     /// The first bound out of its range; nothing has changed.
     pub fn count_from(
         &mut self,
+        q_0: &Vector3<Real>,
         by: &Vector3<Real>,
         bounds: [Bounds; 3],
     ) -> Result<(), ParameterError> {
-        self.sampled.law_mut().bound(bounds)?;
+        self.sampled.law_mut().axes.bound(bounds)?;
+        self.workspace = self.workspace.map(|limits| limits.counted_from(q_0));
         self.sampled.count_from(by);
         Ok(())
     }
@@ -65,7 +82,7 @@ impl TaskSpace {
     /// # Errors
     /// The first gain out of its range; the gains stay as they were.
     pub fn tune(&mut self, gains: [Gains; 3]) -> Result<(), ParameterError> {
-        self.sampled.law_mut().tune(gains)
+        self.sampled.law_mut().axes.tune(gains)
     }
 
     /// One tick at joint angles `q` (rad), where the handle is at `pose`, with the human's force `f_h` (N, base frame).
@@ -81,6 +98,13 @@ impl TaskSpace {
         request: &Request<3>,
         shown: &mut HandleTick,
     ) -> Result<(), NotFinite> {
+        let is_near = match &self.workspace {
+            Some(limits) if !limits.are_far(q, self.sampled.ledger().motion(), pose) => {
+                self.sampled.law_mut().near = Some(limits.at(q, pose));
+                true
+            }
+            _ => false,
+        };
         let inputs = Inputs {
             place: &pose.p,
             q,
@@ -116,7 +140,11 @@ impl TaskSpace {
             };
             shown.is_finite() && G.is_finite()
         };
-        Ok(self.sampled.tick(&inputs, &joints, accept)?)
+        let done = self.sampled.tick(&inputs, &joints, accept);
+        if is_near {
+            self.sampled.law_mut().near = None;
+        }
+        Ok(done?)
     }
 
     /// One tick out of the loop: no torque, the nominal at the handle. The energy that was stored is given up; the next

@@ -345,6 +345,22 @@ typedef struct exo_arm_force_sensor {
   struct exo_arm_tare tare;
 } exo_arm_force_sensor;
 
+// Where the nominal may go. The start values leave 0.1 rad before the stops of the exoskeleton arm; and 0.4 rad where the
+// elbow would become straight, so that f_max still bends it with twice its stiction.
+typedef struct exo_arm_workspace {
+  // Whether the nominal keeps within the workspace, which is the exoskeleton arm's: workspace.q_min to
+  // workspace.q_max, and in task space workspace.radius_min. An arm that engages beyond may only come back.
+  int32_t limited; // 0 or 1
+  // Least angle of each joint of the nominal, with room before the arm's stop or before a straight elbow.
+  exo_real q_min[3]; // rad
+  // Largest angle of each joint of the nominal, with room before the arm's stop.
+  exo_real q_max[3]; // rad
+  // Least distance of the nominal handle from the yaw axis, in task space, where the axis is a singularity.
+  exo_real radius_min; // m
+  // Slowing: a limit is approached no faster than the distance that is left over this time, at least T.
+  exo_real slowing_time; // s
+} exo_arm_workspace;
+
 // When and how much the nominal is slowed. The start values: two thirds of the least sigma_min that the paper's experiments
 // come to (0.18 m/rad), and a damping that takes the speed from the nominal within the few centimetres that are left.
 typedef struct exo_arm_singularity {
@@ -524,6 +540,8 @@ typedef struct exo_arm_parameters {
   struct exo_arm_encoder encoder;
   // The hand's force sensor.
   struct exo_arm_force_sensor ft;
+  // Where the nominal may go.
+  struct exo_arm_workspace workspace;
   // Slowing before a singularity.
   struct exo_arm_singularity singularity;
   // Damping for a hand too stiff for the gains.
@@ -629,7 +647,7 @@ typedef struct exo_arm_outputs {
   int32_t outside_bounds; // 0 or 1
   // Whether sigma_min lies below singularity.sigma_slow, so that the nominal is damped more.
   int32_t slowed; // 0 or 1
-  // Whether hold, dp_n_max or the position box kept the nominal back at this tick.
+  // Whether hold, dp_n_max, the position box or the workspace kept the nominal back at this tick.
   int32_t held; // 0 or 1
   // Share of the torques that the energy budget left at this tick; 1 unless something is wrong.
   exo_real share;
@@ -933,6 +951,7 @@ exo_status exo_axis_variable(size_t i, struct exo_variable *variable);
 #define exo_arm_tool exo_f32_arm_tool
 #define exo_arm_tune exo_f32_arm_tune
 #define exo_arm_variable exo_f32_arm_variable
+#define exo_arm_workspace exo_f32_arm_workspace
 #define exo_axis_defaults exo_f32_axis_defaults
 #define exo_axis_init exo_f32_axis_init
 #define exo_axis_inputs exo_f32_axis_inputs

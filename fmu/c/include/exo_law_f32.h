@@ -108,6 +108,22 @@ typedef struct exo_f32_arm_force_sensor {
   struct exo_f32_arm_tare tare;
 } exo_f32_arm_force_sensor;
 
+// Where the nominal may go. The start values leave 0.1 rad before the stops of the exoskeleton arm; and 0.4 rad where the
+// elbow would become straight, so that f_max still bends it with twice its stiction.
+typedef struct exo_f32_arm_workspace {
+  // Whether the nominal keeps within the workspace, which is the exoskeleton arm's: workspace.q_min to
+  // workspace.q_max, and in task space workspace.radius_min. An arm that engages beyond may only come back.
+  int32_t limited; // 0 or 1
+  // Least angle of each joint of the nominal, with room before the arm's stop or before a straight elbow.
+  exo_f32_real q_min[3]; // rad
+  // Largest angle of each joint of the nominal, with room before the arm's stop.
+  exo_f32_real q_max[3]; // rad
+  // Least distance of the nominal handle from the yaw axis, in task space, where the axis is a singularity.
+  exo_f32_real radius_min; // m
+  // Slowing: a limit is approached no faster than the distance that is left over this time, at least T.
+  exo_f32_real slowing_time; // s
+} exo_f32_arm_workspace;
+
 // When and how much the nominal is slowed. The start values: two thirds of the least sigma_min that the paper's experiments
 // come to (0.18 m/rad), and a damping that takes the speed from the nominal within the few centimetres that are left.
 typedef struct exo_f32_arm_singularity {
@@ -287,6 +303,8 @@ typedef struct exo_f32_arm_parameters {
   struct exo_f32_arm_encoder encoder;
   // The hand's force sensor.
   struct exo_f32_arm_force_sensor ft;
+  // Where the nominal may go.
+  struct exo_f32_arm_workspace workspace;
   // Slowing before a singularity.
   struct exo_f32_arm_singularity singularity;
   // Damping for a hand too stiff for the gains.
@@ -392,7 +410,7 @@ typedef struct exo_f32_arm_outputs {
   int32_t outside_bounds; // 0 or 1
   // Whether sigma_min lies below singularity.sigma_slow, so that the nominal is damped more.
   int32_t slowed; // 0 or 1
-  // Whether hold, dp_n_max or the position box kept the nominal back at this tick.
+  // Whether hold, dp_n_max, the position box or the workspace kept the nominal back at this tick.
   int32_t held; // 0 or 1
   // Share of the torques that the energy budget left at this tick; 1 unless something is wrong.
   exo_f32_real share;

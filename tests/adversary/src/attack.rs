@@ -3,7 +3,7 @@
 use crate::case::Case;
 use crate::genes::Genes;
 use crate::random::Random;
-use crate::subject::{Arm, JointArm};
+use crate::subject::{Arm, ArmInWorkspace, JointArm};
 use crate::trial::{self, Outcome};
 use admittance::Admittance;
 use std::fmt;
@@ -20,10 +20,18 @@ pub enum Target {
     Arm,
     /// The arm in joint space.
     JointArm,
+    /// The arm in task space, within joint limits.
+    Workspace,
 }
 
 /// All targets.
-pub const TARGETS: [Target; 4] = [Target::Axis, Target::Axes, Target::Arm, Target::JointArm];
+pub const TARGETS: [Target; 5] = [
+    Target::Axis,
+    Target::Axes,
+    Target::Arm,
+    Target::JointArm,
+    Target::Workspace,
+];
 
 /// A case on a target; as text, a line of the regressions.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -67,6 +75,12 @@ impl Attack {
             Target::JointArm => {
                 let case = Case::<3>::new(&self.genes);
                 let outcome = trial::run::<3, JointArm>(&case, 200);
+                let score = outcome.score(case.setup.settings.E_0);
+                (outcome, score)
+            }
+            Target::Workspace => {
+                let case = Case::<3>::new(&self.genes);
+                let outcome = trial::run::<3, ArmInWorkspace>(&case, 200);
                 let score = outcome.score(case.setup.settings.E_0);
                 (outcome, score)
             }
@@ -116,6 +130,7 @@ impl Target {
             Self::Axes => "axes",
             Self::Arm => "arm",
             Self::JointArm => "joint_arm",
+            Self::Workspace => "workspace",
         }
     }
 }
@@ -134,7 +149,9 @@ impl FromStr for Attack {
         let target = TARGETS
             .into_iter()
             .find(|target| target.name() == name)
-            .ok_or_else(|| format!("expected axis, axes, arm or joint_arm, got `{name}`"))?;
+            .ok_or_else(|| {
+                format!("expected axis, axes, arm, joint_arm or workspace, got `{name}`")
+            })?;
         Ok(Self {
             target,
             genes: genes.parse()?,

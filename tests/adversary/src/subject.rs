@@ -8,6 +8,7 @@ use arm_law::kinematics::Kinematics;
 use arm_law::limits::{Limits, TorqueLimiting};
 use arm_law::nominal::NominalArm;
 use arm_law::task_space::TaskSpace;
+use arm_law::workspace::Workspace;
 use nalgebra::{Matrix3, SVector, Vector3};
 
 /// What an attack is made of.
@@ -226,6 +227,63 @@ impl Subject<3> for Arm {
     /// Joints that are clipped one by one turn the force: no output says what the nominal felt.
     fn shows_what_is_felt(setup: &Setup<3>) -> bool {
         !setup.clip
+    }
+}
+
+/// The same with a nominal that keeps within a workspace about where the attack starts: its limits lie across the axes.
+#[derive(Clone, Copy, Debug)]
+pub struct ArmInWorkspace(Arm);
+
+/// Half of a joint's range where the case has no box, rad.
+const NARROW: f64 = 0.05;
+
+impl Subject<3> for ArmInWorkspace {
+    /// Joint limits as wide as the case's box, approached in its tuning time; the yaw axis is kept away from as well.
+    fn build(setup: &Setup<3>) -> Result<Self, ParameterError> {
+        let home = Self::home();
+        let half = setup.bounds.map(|bounds| bounds.q_max.min(NARROW));
+        let free = [0, 1, 2].map(|i| Bounds {
+            speed: setup.bounds[i].speed,
+            ..Bounds::default()
+        });
+        let arm = Arm::build(&Setup {
+            bounds: free,
+            ..*setup
+        })?;
+        let workspace = Workspace {
+            limited: 1,
+            q_min: core::array::from_fn(|i| home[i] - half[i]),
+            q_max: core::array::from_fn(|i| home[i] + half[i]),
+            radius_min: 0.44 - half[0],
+            slowing_time: setup.settings.tuning_time.max(setup.settings.T),
+        };
+        Ok(Self(Arm {
+            law: arm
+                .law
+                .within(workspace.checked(setup.settings.T)?, arm.kinematics),
+            ..arm
+        }))
+    }
+
+    fn home() -> Vector3<f64> {
+        Arm::home()
+    }
+
+    fn tick(&mut self, q: &Vector3<f64>, f_h: &Vector3<f64>, order: &Order<3>) -> Seen<3> {
+        self.0.tick(q, f_h, order)
+    }
+
+    fn acts(&mut self, q: &Vector3<f64>) {
+        self.0.acts(q);
+    }
+
+    fn tune(&mut self, gains: [Gains; 3]) -> Result<(), ParameterError> {
+        self.0.tune(gains)
+    }
+
+    /// The audit finds v_m axis by axis, and here the edges couple them.
+    fn shows_what_is_felt(_setup: &Setup<3>) -> bool {
+        false
     }
 }
 

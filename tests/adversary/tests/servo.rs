@@ -152,6 +152,7 @@ fn mass<C: Commands<1>>(seed: u64, E_0: f64) -> Run {
         rate: f64::INFINITY,
         tau_max: f64::INFINITY,
         clip: false,
+        lag: 1.0,
     };
     let mut law = C::build(&setup).expect("valid");
     let (k_h, wall_k) = (

@@ -18,6 +18,7 @@ mod stiff_hand;
 mod supervision;
 mod ticks;
 mod tuning;
+mod workspace;
 
 use arm_controller::ArmController;
 use export::{Log, Model, Step};

@@ -18,7 +18,7 @@ fn refused(change: Change) -> String {
 fn refusals_name_the_variable_the_value_and_the_range() {
     let positive = "expected a finite value, at least 1e-6";
     let not_negative = "expected a finite value not less than 0";
-    let cases: [(Change, String); 25] = [
+    let cases: [(Change, String); 28] = [
         (
             |c| c.parameters.law = 5, // natural: a comparator, for one axis
             format!("law = 5: {LAWS}"),
@@ -112,6 +112,18 @@ fn refusals_name_the_variable_the_value_and_the_range() {
         (
             |c| c.parameters.singularity.sigma_slow = -0.1,
             format!("singularity.sigma_slow = -0.1: {not_negative}"),
+        ),
+        (
+            |c| c.parameters.workspace.q_max[2] = 0.5,
+            "workspace.q_max[3] = 0.5: expected a value greater than workspace.q_min".into(),
+        ),
+        (
+            |c| c.parameters.workspace.slowing_time = 0.0009,
+            "workspace.slowing_time = 0.0009: expected a value of at least T".into(),
+        ),
+        (
+            |c| c.parameters.workspace.radius_min = -0.1,
+            format!("workspace.radius_min = -0.1: {not_negative}"),
         ),
     ];
     for (change, expected) in cases {

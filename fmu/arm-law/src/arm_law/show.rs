@@ -84,7 +84,10 @@ impl ArmLaw {
         outputs.q_n = self.absolute(&nominal.q_n).into();
         outputs.dq_n = nominal.dq_n.into();
         outputs.e_q = nominal.e_nr.into();
-        outputs.M_n = core::array::from_fn(|i| nominal.M_n[(i / 3, i % 3)]);
+        // Row by row is column by column: it is symmetric.
+        for (output, M_n) in outputs.M_n.iter_mut().zip(&nominal.M_n) {
+            *output = *M_n;
+        }
         outputs.stiff_hand_detected = stiff_hand.detected.into();
         outputs.stiff_hand_D = stiff_hand.D.into();
         outputs.stiff_hand_k_h = stiff_hand.k_h.into();

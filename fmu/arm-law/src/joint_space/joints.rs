@@ -9,6 +9,7 @@ use super::{JointGains, stored};
 use crate::kinematics::{Kinematics, SinCos, sin_cos};
 use crate::nominal::transport::transported;
 use crate::nominal::{NominalArm, RigidBody};
+use crate::workspace::Workspace;
 use admittance::bounds::{Bounds, Interval};
 use admittance::motion::Sampling;
 use admittance::real::{floored, sat};
@@ -32,6 +33,7 @@ pub struct Joints {
     kinematics: Kinematics,
     tuning: Tuning<JointGains>,
     bounds: [Bounds; 3],
+    workspace: Option<Workspace>,
     state: Option<State>,
 }
 
@@ -136,6 +138,7 @@ impl Joints {
             kinematics,
             tuning: Tuning::new(gains),
             bounds: [Bounds::default(); 3],
+            workspace: None,
             state: None,
         })
     }
@@ -150,6 +153,11 @@ impl Joints {
             .try_for_each(|(joint, bounds)| bounds.check(Some(joint)))?;
         self.bounds = bounds;
         Ok(())
+    }
+
+    /// Within the angles of `workspace`, which has been checked, from the next tick on; `None`: anywhere.
+    pub fn keep_within(&mut self, workspace: Option<Workspace>) {
+        self.workspace = workspace;
     }
 
     /// Other gains: on a straight line over the tuning time, each step taken over so that the stored energy does not rise.
@@ -263,9 +271,13 @@ impl Coordinates<3> for Joints {
             v_n,
         } = sensed;
         let intervals = [0, 1, 2].map(|i| {
-            self.bounds[i]
+            let interval = self.bounds[i]
                 .interval(q[i] + e[i], T, request.hold)
-                .no_faster_than(request.speed[i])
+                .no_faster_than(request.speed[i]);
+            self.workspace.as_ref().map_or(interval, |limits| {
+                let ends = [limits.q_min[i], limits.q_max[i]];
+                interval.approaching(q[i] + e[i], ends, limits.slowing_time)
+            })
         });
         let sample = Sample {
             M_n: body.M,

@@ -8,6 +8,7 @@ use crate::handle::{HandleTick, NotFinite};
 use crate::kinematics::{Kinematics, Pose, sin_cos};
 use crate::limits::{AtTheJoints, Limits};
 use crate::nominal::NominalArm;
+use crate::workspace::Workspace;
 use admittance::tick::{Inputs, Sampled, Tick};
 use admittance::{Bounds, Ledger, ParameterError, Reach, Real, Request, Settings};
 use nalgebra::{Matrix3, Vector3};
@@ -46,15 +47,6 @@ pub struct Nominal {
 }
 
 impl Nominal {
-    /// Brings it to rest at the sensed angles `q` (rad), without a mass.
-    #[inline]
-    pub(crate) fn rest_at(&mut self, q: &Vector3<Real>) {
-        self.q_n = *q;
-        self.dq_n = Vector3::zeros();
-        self.e_nr = Vector3::zeros();
-        self.M_n = Matrix3::zeros();
-    }
-
     /// At the sensed angles `q` (rad), at rest, with the mass matrix `M_n` (kg·m²).
     pub fn at(q: &Vector3<Real>, M_n: Matrix3<Real>) -> Self {
         Self {
@@ -87,6 +79,14 @@ impl JointSpace {
             sampled: Sampled::new(joints, &reach)?.rated(&limits.tau_rate)?,
             limits,
         })
+    }
+
+    /// The same with a nominal that keeps within the angles of `workspace`, which has been checked; `None`: it may go
+    /// anywhere.
+    #[must_use]
+    pub fn within(mut self, workspace: Option<Workspace>) -> Self {
+        self.sampled.law_mut().keep_within(workspace);
+        self
     }
 
     /// Other gains: on a straight line over the tuning time, each step taken over so that the stored energy does not rise.

@@ -12,6 +12,7 @@ use super::law::{at_the_joints, show};
 use super::{JointGains, JointParameters, JointRequest, Joints, Nominal};
 use crate::handle::{HandleTick, NotFinite};
 use crate::kinematics::{Kinematics, Pose};
+use crate::workspace::Workspace;
 use admittance::servo::{Command, Feedback, Inputs, Servo};
 use admittance::{Ledger, ParameterError, Reach, Real, Request, Settings};
 use nalgebra::Vector3;
@@ -51,6 +52,14 @@ impl JointServo {
             q_d: Vector3::zeros(),
             dq_d: Vector3::zeros(),
         })
+    }
+
+    /// The same with a nominal that keeps within the angles of `workspace`, which has been checked; `None`: it may go
+    /// anywhere.
+    #[must_use]
+    pub fn within(mut self, workspace: Option<Workspace>) -> Self {
+        self.servo.law_mut().keep_within(workspace);
+        self
     }
 
     /// Another nominal damping: on a straight line over the tuning time. K and K_P are the drives' as well, which this law

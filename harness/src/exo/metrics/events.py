@@ -27,6 +27,15 @@ def leaving_delay(
 
 
 @metric
+def return_delay(run: Recording, *, column: str, at: float) -> float:
+    """Time (s) after `at` (s) until `column` is back at its first value, from either side. NaN if it stays away."""
+    away = run[column] - run[column][0]
+    since = window(run.time, after=at, before=None)
+    back = since & (np.sign(away[np.argmax(since)]) * away <= 0.0)
+    return float(run.time[np.argmax(back)] - at) if back.any() else math.nan
+
+
+@metric
 def ticks_until(run: Recording, *, column: str, value: float, after: float) -> float:
     """Number of ticks from `after` until the column first has this value."""
     since = np.flatnonzero(window(run.time, after=after, before=None))

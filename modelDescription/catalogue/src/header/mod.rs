@@ -18,6 +18,7 @@ use arm_law::kinematics::Kinematics;
 use arm_law::nominal::{Link, NominalArm};
 use arm_law::singularity::Singularity;
 use arm_law::supervision::Parameters;
+use arm_law::workspace::Workspace;
 use arm_law::wrench::{Sensor, Tool, tare::TareSettings, validity::Checks};
 use arm_law::{ArmInputs, ArmOutputs, ArmParameters};
 use declaration::unit::NONE;
@@ -131,7 +132,13 @@ fn meanings() -> BTreeMap<(&'static str, &'static str), String> {
         TareSettings,
         Parameters
     );
-    rows_of!(EncoderParameters, JointSettings, NominalArm, Link);
+    rows_of!(
+        EncoderParameters,
+        JointSettings,
+        NominalArm,
+        Link,
+        Workspace
+    );
     found
 }
 
