@@ -29,7 +29,7 @@
 //! | τ | dτ/dt = ω (τ_a − τ) | N·m | [`drive::Drive`] |
 //! | τ_f | −τ_f ∈ F(dq) Sgn(dq) + b dq, Sgn(0) = \[−1, 1\] | N·m | [`stribeck::Stribeck`] |
 //! | F | F_c + (F_s − F_c) exp(−(dq/v_s)²) | N·m | [`stribeck::Stribeck::limit`] |
-//! | f_e | normal: 0 ≤ λ ⟂ s − pen ≥ 0, λ = k s + c ds/dt; tangential: −f_t ∈ μ λ Sgn(w_t) | N | [`surface::Surface`] |
+//! | f_e | normal: 0 ≤ λ ⟂ s − pen ≥ 0, λ = k s + c ds/dt; tangential: −f_t ∈ μ λ Sgn(w_t), Sgn(0) a disc | N | [`surface::Surface`] |
 //! | v | the velocity at the end of a substep and all set-valued forces, together | rad/s | [`problem::Problem`] |
 //! | tension | m (a_z − g_z) − f_e,z | N | [`payload::tension`] |
 //! | residual | Σ work + payload − Σ loss − (E − E(0)), first order in dt | J | [`energy::Energy::residual`] |
@@ -38,7 +38,8 @@
 //!
 //! 1. The drive's torque and the rigid body at q, with the payload if one is held: [`drive`], [`rigid_body`].
 //! 2. The implicit velocity problem: friction of three joints, stops, two surfaces, friction on them: [`problem`].
-//! 3. Its solution, exact up to rounding: [`guess`] and [`solver`]; [`gauss_seidel`] is the last resort.
+//! 3. Its solution, exact up to rounding: [`guess`] and [`solver`], with friction on a surface projected on its [`disc`];
+//!    [`gauss_seidel`] is the last resort.
 //! 4. q⁺ = q + dt v, the surfaces' deflections, the energy: [`substep`], [`flow`], [`energy`].
 //! 5. The payload is gripped, released or lost: [`payload`].
 //!
@@ -46,6 +47,7 @@
 //! and lift at 1e-4 s.
 
 mod check;
+pub mod disc;
 pub mod drive;
 pub mod energy;
 pub mod flow;
@@ -60,6 +62,7 @@ pub mod problem;
 mod quotient;
 mod revision;
 pub mod rigid_body;
+mod rubbing;
 pub mod solver;
 pub mod state;
 pub mod stribeck;

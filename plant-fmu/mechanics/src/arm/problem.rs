@@ -13,11 +13,10 @@ pub const FACINGS: [Facing; 2] = [Facing::Up, Facing::Back];
 /// A v = b + λ + Jᵀ (t + Σ d n)                                              A = M + dt B
 /// λᵢ  = −limit Sgn(vᵢ) + stop,   low ≤ vᵢ ≤ high,  stop ≤ 0 only at high, ≥ 0 only at low    joint i
 /// n   = max(0, push − κ dt d·w)                                             normal of a surface, w = J v
-/// tₐ ∈ −(Σ μ n) Sgn(wₐ)                                                     axis a, over surfaces tangential to it
+/// t   = Σ tₖ,   −tₖ ∈ μ n Sgn(wₖ),   Sgn(w) = w/|w|, Sgn(0) = unit disc     friction of a surface, wₖ = w in its plane
 /// ```
 ///
-/// Impulses in N·m·s at the joints, in N·s at the pad (base frame). The frictions of table and wall along y oppose the
-/// same velocity and are one force. A is positive definite, so v is unique for given limits; where more forces hold
+/// Impulses in N·m·s at the joints, in N·s at the pad (base frame). A is positive definite, so v is unique for given limits; where more forces hold
 /// than are needed, how they share the load is not determined by any equation, and v does not depend on it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Problem {
@@ -64,7 +63,7 @@ pub struct Solution {
     pub joint: Vector3<f64>,
     /// Impulse of each surface along its normal, on the pad (N·s), ≥ 0.
     pub normal: [f64; 2],
-    /// Impulse of tangential friction on the pad, base frame (N·s).
+    /// Impulse of friction on the pad, of both surfaces together; base frame (N·s).
     pub tangent: Vector3<f64>,
     /// How it was found.
     pub path: Path,
@@ -84,19 +83,6 @@ pub enum Path {
 }
 
 impl Problem {
-    /// Largest impulse of friction along each axis of the pad (N·s), from the impulses of the normals.
-    pub fn grip(&self, normal: &[f64; 2]) -> Vector3<f64> {
-        let mut grip = Vector3::zeros();
-        for (k, facing) in FACINGS.iter().enumerate() {
-            for axis in 0..3 {
-                if axis != facing.axis() {
-                    grip[axis] += self.contacts[k].mu * normal[k];
-                }
-            }
-        }
-        grip
-    }
-
     /// Impulse of the surfaces on the pad, base frame (N·s): t + Σ d n.
     pub fn on_pad(&self, normal: &[f64; 2], tangent: &Vector3<f64>) -> Vector3<f64> {
         let mut impulse = *tangent;
@@ -124,6 +110,17 @@ impl Contact {
     /// push − κ dt d·w: impulse of the surface if it could also pull (N·s), for the velocity `w` of the pad (m/s).
     pub fn pressure(&self, facing: Facing, w: &Vector3<f64>) -> f64 {
         self.push - self.kappa_dt * facing.sign() * w[facing.axis()]
+    }
+
+    /// `friction` (N·s), shortened to what the normal impulse `n` (N·s) allows.
+    #[inline]
+    pub(crate) fn within(&self, n: f64, friction: &Vector3<f64>) -> Vector3<f64> {
+        let (most, square) = (self.mu * n.max(0.0), friction.norm_squared());
+        if square > most * most {
+            friction * (most / libm::sqrt(square))
+        } else {
+            *friction
+        }
     }
 }
 

@@ -37,7 +37,8 @@ pub fn solve(problem: &Problem, guess: &mut Guess) -> Solution {
     settled(problem, solution, guess, swept.path)
 }
 
-/// Removes what rounding left: no sliding against its sense, no force beyond what its law allows.
+/// Removes what rounding left: no sliding against its sense, no force beyond what its law allows; friction on the surfaces
+/// keeps to it already.
 fn settled(problem: &Problem, mut solution: Solution, guess: &Guess, path: Path) -> Solution {
     for (i, joint) in problem.joints.iter().enumerate() {
         let (v, impulse) = (&mut solution.v[i], &mut solution.joint[i]);
@@ -52,11 +53,6 @@ fn settled(problem: &Problem, mut solution: Solution, guess: &Guess, path: Path)
     if guess.touches() {
         for n in &mut solution.normal {
             *n = n.max(0.0);
-        }
-        let grip = problem.grip(&solution.normal);
-        for axis in 0..3 {
-            let t = &mut solution.tangent[axis];
-            *t = t.max(-grip[axis]).min(grip[axis]);
         }
     }
     Solution { path, ..solution }
