@@ -46,7 +46,7 @@ prop_compose! {
         part in [0.0..=1.0, 0.0..=1.0, 0.0..=1.0], ends in [0..6, 0..6, 0..6], dq in velocity(), attached in any::<bool>(),
         payload in 1.0..30.0, tau in vector(300.0), f_h in vector(100.0), f_d in vector(1000.0), dt in prop_oneof![Just(1e-4), 5e-6..1e-3],
         gap in [-1e-3..1e-3_f64, -1e-3..1e-3_f64], far in any::<[bool; 2]>(), squeeze in [0.0..2e-3, 0.0..2e-3],
-        mu in [0.0..0.8, 0.0..0.8],
+        mu in [0.0..0.8, 0.0..0.8], loss in prop_oneof![Just(0.0), 0.0..0.5],
     ) -> Problem {
         let mut parameters = Parameters { payload_m: payload, ..Parameters::default() };
         let q = Vector3::from_fn(|i, _| {
@@ -63,6 +63,7 @@ prop_compose! {
         if !far[0] { parameters.table.z = place.pad.p.z + gap[0]; }
         if !far[1] { parameters.wall.x = place.pad.p.x - gap[1]; }
         (parameters.table.mu, parameters.wall.mu) = (mu[0], mu[1]);
+        for gear in &mut parameters.gear_loss { (gear.drive, gear.back) = (loss, 0.7 * loss); }
         let s = [gap[0].max(0.0) + squeeze[0], gap[1].max(0.0) + squeeze[1]];
         let state = State { q, dq, tau: Vector3::zeros(), s, attached };
         let body = mechanics::arm::rigid_body::RigidBody::at(
@@ -97,16 +98,16 @@ fn violation(problem: &Problem, solution: &Solution) -> f64 {
     scale = scale.max(joint.amax());
     let mut worst = (A * v - b - joint - J.transpose() * on_pad).amax();
 
-    for (i, Joint { limit, low, high }) in joints.iter().enumerate() {
+    for (i, Joint { against, low, high }) in joints.iter().enumerate() {
         // Beyond a stop; friction that does not oppose, or exceeds its limit; a stop that pulls.
         worst = worst.max(A[(i, i)] * (v[i] - high).max(low - v[i]));
         let rest = 1e-13 * scale / A[(i, i)]; // rounding
         let friction = if v[i] > rest {
-            -limit
+            -against[0]
         } else if v[i] < -rest {
-            *limit
+            against[1]
         } else {
-            joint[i].clamp(-limit, *limit)
+            joint[i].clamp(-against[0], against[1])
         };
         let stop = joint[i] - friction;
         if v[i] < high - rest {

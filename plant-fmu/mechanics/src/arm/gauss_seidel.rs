@@ -32,7 +32,7 @@ pub fn solve(problem: &Problem, sweeps: u32) -> Solution {
             let law = &problem.joints[i];
             let own = inverse[(i, i)];
             let without = v[i] - own * joint[i];
-            let slid = (-without / own).max(-law.limit).min(law.limit);
+            let slid = law.friction(-without / own);
             let moved = (without + own * slid).max(law.low).min(law.high);
             let next = if moved == without + own * slid {
                 slid

@@ -31,17 +31,6 @@ pub struct Guess {
     pub pushes: [bool; 2],
 }
 
-impl Motion {
-    /// Sense of sliding: 1, −1, or 0 where friction is not at its limit.
-    pub fn sense(self) -> f64 {
-        match self {
-            Self::Forward => 1.0,
-            Self::Backward => -1.0,
-            Self::Held | Self::High | Self::Low => 0.0,
-        }
-    }
-}
-
 impl Guess {
     /// Does a surface push?
     pub(crate) fn touches(&self) -> bool {

@@ -53,9 +53,13 @@ impl<'a> Linear<'a> {
                 Motion::Held => {}
                 Motion::High => at[i] = joints[i].high,
                 Motion::Low => at[i] = joints[i].low,
-                Motion::Forward | Motion::Backward => {
+                Motion::Forward => {
                     held[i] = false;
-                    slide[i] = -guess.joint[i].sense() * joints[i].limit;
+                    slide[i] = -joints[i].against[0];
+                }
+                Motion::Backward => {
+                    held[i] = false;
+                    slide[i] = joints[i].against[1];
                 }
             }
         }

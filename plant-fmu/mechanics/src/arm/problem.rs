@@ -11,7 +11,7 @@ pub const FACINGS: [Facing; 2] = [Facing::Up, Facing::Back];
 ///
 /// ```text
 /// A v = b + λ + Jᵀ (t + Σ d n)                                              A = M + dt B
-/// λᵢ  = −limit Sgn(vᵢ) + stop,   low ≤ vᵢ ≤ high,  stop ≤ 0 only at high, ≥ 0 only at low    joint i
+/// λᵢ  = −against Sgn(vᵢ) + stop, low ≤ vᵢ ≤ high,  stop ≤ 0 only at high, ≥ 0 only at low    joint i
 /// n   = max(0, push − κ dt d·w)                                             normal of a surface, w = J v
 /// t   = Σ tₖ,   −tₖ ∈ μ n Sgn(wₖ),   Sgn(w) = w/|w|, Sgn(0) = unit disc     friction of a surface, wₖ = w in its plane
 /// ```
@@ -35,8 +35,8 @@ pub struct Problem {
 /// Set-valued forces on a joint.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Joint {
-    /// Largest impulse of dry friction (N·m·s).
-    pub limit: f64,
+    /// Largest impulse of dry friction against the positive and against the negative direction (N·m·s).
+    pub against: [f64; 2],
     /// Velocity that reaches the lower stop within the substep (rad/s), ≤ 0.
     pub low: f64,
     /// Velocity that reaches the upper stop within the substep (rad/s), ≥ 0.
@@ -97,7 +97,7 @@ impl Problem {
     pub(crate) fn rounding(&self) -> f64 {
         let mut scale = self.b.amax();
         for joint in &self.joints {
-            scale = scale.max(joint.limit);
+            scale = scale.max(joint.against[0]).max(joint.against[1]);
         }
         for contact in &self.contacts {
             scale = scale.max(contact.push);
@@ -125,19 +125,19 @@ impl Contact {
 }
 
 impl Joint {
-    /// Least impulse of a joint that friction and stops keep at rest: −limit, or any where it leans on the upper stop.
+    /// Least impulse of a joint that friction and stops keep at rest: friction's, or any where it leans on the upper stop.
     pub(crate) fn least(&self) -> f64 {
         if self.high > 0.0 {
-            -self.limit
+            -self.against[0]
         } else {
             f64::NEG_INFINITY
         }
     }
 
-    /// Largest impulse of a joint that friction and stops keep at rest: limit, or any where it leans on the lower stop.
+    /// Largest impulse of a joint that friction and stops keep at rest: friction's, or any where it leans on the lower stop.
     pub(crate) fn most(&self) -> f64 {
         if self.low < 0.0 {
-            self.limit
+            self.against[1]
         } else {
             f64::INFINITY
         }
@@ -145,6 +145,6 @@ impl Joint {
 
     /// The share of friction in the impulse `joint` (N·m·s); the rest is the stop's.
     pub fn friction(&self, joint: f64) -> f64 {
-        joint.max(-self.limit).min(self.limit)
+        joint.max(-self.against[0]).min(self.against[1])
     }
 }

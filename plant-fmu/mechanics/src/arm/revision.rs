@@ -63,8 +63,8 @@ impl<'a> Check<'a> {
             Motion::Backward if v < joint.low - self.v[i] => beyond(joint.low, Motion::Low),
             Motion::Held if impulse < joint.least() - self.impulse => Motion::Forward,
             Motion::Held if impulse > joint.most() + self.impulse => Motion::Backward,
-            Motion::High if impulse > -joint.limit + self.impulse => Motion::Forward,
-            Motion::Low if impulse < joint.limit - self.impulse => Motion::Backward,
+            Motion::High if impulse > -joint.against[0] + self.impulse => Motion::Forward,
+            Motion::Low if impulse < joint.against[1] - self.impulse => Motion::Backward,
             _ => motion,
         }
     }
@@ -82,7 +82,7 @@ impl<'a> Check<'a> {
                 Motion::High
             } else if v <= joint.low && joint.low < 0.0 {
                 Motion::Low
-            } else if impulse.abs() >= joint.limit {
+            } else if impulse <= -joint.against[0] || impulse >= joint.against[1] {
                 sliding(v, self.v[i])
             } else {
                 Motion::Held

@@ -46,8 +46,8 @@ fn settled(problem: &Problem, mut solution: Solution, guess: &Guess, path: Path)
             Motion::Forward => *v = v.max(0.0).min(joint.high),
             Motion::Backward => *v = v.min(0.0).max(joint.low),
             Motion::Held => *impulse = impulse.max(joint.least()).min(joint.most()),
-            Motion::High => *impulse = impulse.min(-joint.limit),
-            Motion::Low => *impulse = impulse.max(joint.limit),
+            Motion::High => *impulse = impulse.min(-joint.against[0]),
+            Motion::Low => *impulse = impulse.max(joint.against[1]),
         }
     }
     if guess.touches() {

@@ -118,6 +118,19 @@ impl Facing {
     }
 }
 
+/// A contact that is too stiff for the substep; of the table or the wall.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TooStiff {
+    /// The stiffness' variable: `table.k`, `wall.k`.
+    pub name: &'static str,
+    /// Its value (N/m).
+    pub k: f64,
+    /// Share of the rebound speed that the substep costs.
+    pub lost: f64,
+    /// Longest substep (s) that costs no more than was asked.
+    pub longest: f64,
+}
+
 impl Surface {
     /// How far a point with the coordinate `x` along the normal's axis (m) is behind the plane (m); negative outside.
     pub fn penetration(&self, facing: Facing, x: f64) -> f64 {
