@@ -1,5 +1,7 @@
 //! Stops, table and wall: what they hold, how they rub.
 
+#![allow(non_snake_case, reason = "the symbols of mechanics with their capitals: J")]
+
 use mechanics::arm::{Arm, Inputs, Parameters, Start};
 use nalgebra::Vector3;
 
@@ -250,4 +252,56 @@ fn in_the_corner_table_and_wall_rub_together() {
     assert!((arm.place().pad.p - p).amax() < 1e-12);
     let (_, moved) = rubbed([60.0, 0.0, -50.0], [0.0, 46.0, 0.0]);
     assert!(moved.y > 1e-4, "{moved}");
+}
+
+/// Speed with which the pad rebounds from an undamped table of stiffness `k`, over that with which it came, in substeps of `dt`.
+fn rebound(k: f64, dt: f64) -> f64 {
+    let mut parameters = corner(0.0);
+    (parameters.table.k, parameters.table.c, parameters.table.mu) = (k, 0.0, 0.0);
+    parameters.wall.x = 10.0;
+    for friction in &mut parameters.friction {
+        friction.b = 0.0;
+    }
+    let mut arm = Arm::new(parameters, &Start::default()).unwrap();
+    // An impulse along z through the pad: it moves as M⁻¹ Jᵀ says, and comes back so.
+    let J = arm.place().pad.J;
+    let down = arm.body().M.try_inverse().unwrap() * J.transpose() * Vector3::new(0.0, 0.0, -1.0);
+    let start = Start {
+        dq: (down * 0.5).into(),
+        ..Start::default()
+    };
+    let came = (J * Vector3::from(start.dq)).z;
+    arm = Arm::new(parameters, &start).unwrap();
+    let mut steps = 0;
+    while steps == 0 || arm.contact() {
+        arm.advance(&Inputs::default(), 1, dt);
+        steps += 1;
+    }
+    -(J * arm.dq()).z / came
+}
+
+#[test]
+fn a_table_too_stiff_for_the_substep_is_named_with_the_substep_that_it_needs() {
+    for (k, missing) in [(1e5, 0.0134), (1e6, 0.0417), (1e7, 0.1255)] {
+        let mut parameters = weightless();
+        (parameters.table.k, parameters.table.z) = (k, -0.4);
+        let arm = Arm::new(parameters, &Start::default()).unwrap();
+        let found = arm.too_stiff(1e-4, 0.02);
+        let measured = 1.0 - rebound(k, 1e-4);
+        assert!((measured - missing).abs() < 0.01 * missing, "{k:e}: {measured}");
+        let Some(found) = found else {
+            assert!(measured < 0.02, "{k:e}");
+            continue;
+        };
+        assert_eq!((found.name, found.k), ("table.k", k));
+        assert!((found.lost - measured).abs() < 0.02 * measured, "{found:?} {measured}");
+        assert!(1.0 - rebound(k, found.longest) < 0.0205, "{k:e}");
+    }
+    let mut far = weightless();
+    far.table.k = 1e7; // 10 m below
+    assert_eq!(Arm::new(far, &Start::default()).unwrap().too_stiff(1e-4, 0.02), None);
+    far.wall.x = 0.6;
+    far.wall.k = 1e7;
+    let wall = Arm::new(far, &Start::default()).unwrap().too_stiff(1e-4, 0.02);
+    assert_eq!(wall.map(|found| found.name), Some("wall.k"));
 }
