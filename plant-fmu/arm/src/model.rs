@@ -50,10 +50,7 @@ impl Model for ExoskeletonArm {
             ..
         } = &self.outputs;
         let Inputs {
-            tau_a,
-            f_h,
-            f_d,
-            ..
+            tau_a, f_h, f_d, ..
         } = self.inputs;
         if was_attached != *attached {
             let what = match (attached, sucked) {
@@ -125,8 +122,8 @@ pub fn tell(arm: &Arm, substep: f64, log: &mut Log<'_>) {
     }) = arm.too_stiff(substep, REBOUND_LOST)
     {
         log.warning(format_args!(
-            "substep = {substep:?} s is too long for {name} = {k:?} N/m: the pad rebounds {:.1} % too slowly, expected at most \
-             {longest:.2e} s for {:.0} %",
+            "substep = {substep:?} s is too long for {name} = {k:?} N/m: the pad rebounds {:.1} percent too slowly, expected at most \
+             {longest:.2e} s for {:.0} percent",
             100.0 * lost,
             100.0 * REBOUND_LOST
         ));

@@ -147,7 +147,11 @@ fn shear_breaks_the_bond_beyond_its_strength_in_any_direction_and_at_the_start_n
             assert_eq!(arm.outputs.attached, holds, "{x} {y} {F_shear}");
             if holds {
                 // At rest it is the payload's own force: |m g| across.
-                assert!((arm.outputs.shear - 60.0).abs() < 1e-12, "{}", arm.outputs.shear);
+                assert!(
+                    (arm.outputs.shear - 60.0).abs() < 1e-12,
+                    "{}",
+                    arm.outputs.shear
+                );
                 assert!((arm.outputs.tension - 98.1).abs() < 1e-12);
             }
         }

@@ -64,7 +64,10 @@ impl ExoskeletonArms {
             right: Side::of(right, -self.base.y),
             gap: self.plant.gap(),
             lambda: self.plant.lambda().into(),
-            wrist: self.plant.wrist(&Vector3::new(0.0, 2.0 * self.base.y, 0.0)).into(),
+            wrist: self
+                .plant
+                .wrist(&Vector3::new(0.0, 2.0 * self.base.y, 0.0))
+                .into(),
             energy: self.plant.energy(),
             attached: self.plant.attached(),
         };

@@ -64,12 +64,18 @@ fn the_wrists_bear_the_moment_of_the_pads_forces_about_the_payloads_middle() {
     assert!(shown.attached && shown.left.dq == [0.0; 3] && shown.right.dq == [0.0; 3]);
     let apart = shown.left.tension - shown.right.tension;
     assert!(apart.abs() > 1.0, "{apart}");
-    assert!((shown.wrist[0] + 0.2 * apart).abs() < 1e-9, "{:?}", shown.wrist);
+    assert!(
+        (shown.wrist[0] + 0.2 * apart).abs() < 1e-9,
+        "{:?}",
+        shown.wrist
+    );
     // Level forces: equal and opposite at rest, as the payload pulls at neither pad: they turn it about z.
     let shears = [shown.left.shear, shown.right.shear];
     assert!((shears[0] - shears[1]).abs() < 1e-9, "{shears:?}");
     // No moment about the line between the pads.
-    let r: Vec<_> = (0..3).map(|i| shown.left.p_pad[i] - shown.right.p_pad[i]).collect();
+    let r: Vec<_> = (0..3)
+        .map(|i| shown.left.p_pad[i] - shown.right.p_pad[i])
+        .collect();
     assert!((0..3).map(|i| r[i] * shown.wrist[i]).sum::<f64>().abs() < 1e-12);
 }
 

@@ -1,6 +1,9 @@
 //! Stops, table and wall: what they hold, how they rub.
 
-#![allow(non_snake_case, reason = "the symbols of mechanics with their capitals: J")]
+#![allow(
+    non_snake_case,
+    reason = "the symbols of mechanics with their capitals: J"
+)]
 
 use mechanics::arm::{Arm, Inputs, Parameters, Start};
 use nalgebra::Vector3;
@@ -204,7 +207,11 @@ fn the_pad_breaks_away_from_the_table_at_the_same_force_in_every_direction() {
             let push = 20.0 * share;
             let (_, moved) = rubbed([0.0, 0.0, -50.0], [push * x, push * y, 0.0]);
             // Beyond by 20 µN: over 100 kg and 0.2 s that is 4 nm, and more where the arm is lighter.
-            assert_eq!(moved.xy().norm() > 1e-10, slides, "{x} {y} {share}: {moved}");
+            assert_eq!(
+                moved.xy().norm() > 1e-10,
+                slides,
+                "{x} {y} {share}: {moved}"
+            );
         }
     }
 }
@@ -288,20 +295,33 @@ fn a_table_too_stiff_for_the_substep_is_named_with_the_substep_that_it_needs() {
         let arm = Arm::new(parameters, &Start::default()).unwrap();
         let found = arm.too_stiff(1e-4, 0.02);
         let measured = 1.0 - rebound(k, 1e-4);
-        assert!((measured - missing).abs() < 0.01 * missing, "{k:e}: {measured}");
+        assert!(
+            (measured - missing).abs() < 0.01 * missing,
+            "{k:e}: {measured}"
+        );
         let Some(found) = found else {
             assert!(measured < 0.02, "{k:e}");
             continue;
         };
         assert_eq!((found.name, found.k), ("table.k", k));
-        assert!((found.lost - measured).abs() < 0.02 * measured, "{found:?} {measured}");
+        assert!(
+            (found.lost - measured).abs() < 0.02 * measured,
+            "{found:?} {measured}"
+        );
         assert!(1.0 - rebound(k, found.longest) < 0.0205, "{k:e}");
     }
     let mut far = weightless();
     far.table.k = 1e7; // 10 m below
-    assert_eq!(Arm::new(far, &Start::default()).unwrap().too_stiff(1e-4, 0.02), None);
+    assert_eq!(
+        Arm::new(far, &Start::default())
+            .unwrap()
+            .too_stiff(1e-4, 0.02),
+        None
+    );
     far.wall.x = 0.6;
     far.wall.k = 1e7;
-    let wall = Arm::new(far, &Start::default()).unwrap().too_stiff(1e-4, 0.02);
+    let wall = Arm::new(far, &Start::default())
+        .unwrap()
+        .too_stiff(1e-4, 0.02);
     assert_eq!(wall.map(|found| found.name), Some("wall.k"));
 }

@@ -17,7 +17,11 @@ fn yaw(loss: GearLoss) -> Arm {
     };
     parameters.masses.gravity = [0.0; 3];
     parameters.gear_loss = [loss, GearLoss::default(), GearLoss::default()];
-    (parameters.friction[0].F_c, parameters.friction[0].F_s, parameters.friction[0].b) = (0.0, 0.0, 0.0);
+    (
+        parameters.friction[0].F_c,
+        parameters.friction[0].F_s,
+        parameters.friction[0].b,
+    ) = (0.0, 0.0, 0.0);
     for friction in &mut parameters.friction[1..] {
         (friction.F_c, friction.F_s) = (1e4, 1e4);
     }
@@ -47,7 +51,11 @@ fn at_rest_a_gear_holds_between_what_it_passes_on_and_what_drives_it_back() {
         let mut arm = yaw(LOSS);
         arm.advance(&against(load), 10, 1e-4);
         let dq = arm.dq()[0];
-        assert_eq!(if dq == 0.0 { 0.0 } else { dq.signum() }, moves, "{load}: {dq:e}");
+        assert_eq!(
+            if dq == 0.0 { 0.0 } else { dq.signum() },
+            moves,
+            "{load}: {dq:e}"
+        );
         // The same the other way round.
         let mut mirrored = yaw(LOSS);
         let Inputs { tau_a, f_h, .. } = against(load);
@@ -69,9 +77,16 @@ fn the_share_that_is_lost_is_that_of_what_goes_in() {
         arm.advance(&against(load), 3_000, 1e-4);
         let energy = arm.energy();
         let drive = energy.work_tau;
-        let goes_in = if load < TAU { drive } else { -drive / (1.0 - LOSS.back) };
+        let goes_in = if load < TAU {
+            drive
+        } else {
+            -drive / (1.0 - LOSS.back)
+        };
         assert!(goes_in > 1.0, "{energy:?}");
-        assert!((energy.loss_friction / goes_in - share).abs() < 1e-12, "{load}: {energy:?}");
+        assert!(
+            (energy.loss_friction / goes_in - share).abs() < 1e-12,
+            "{load}: {energy:?}"
+        );
         // A first-order residual: C dq and J of the begin of a substep.
         assert!(energy.residual.abs() < 1e-3 * goes_in, "{energy:?}");
     }

@@ -164,7 +164,6 @@ fn the_measure_of_this_file_tells_a_disc_from_a_box() {
     assert!(off([-1.0, -1.0, 0.0], [0.3, 0.4, 0.0]) > 0.1);
 }
 
-
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(10_000))]
 

@@ -25,8 +25,8 @@ impl Model for Testbed {
         let longest = wall.longest_substep(M, REBOUND_LOST);
         if wall.q < Wall::NONE && self.substep > longest {
             log.warning(format_args!(
-                "substep = {:?} s is too long for wall.k = {:?} N/m: the mass rebounds {:.1} % too slowly, expected at most \
-                 {longest:.2e} s for {:.0} %",
+                "substep = {:?} s is too long for wall.k = {:?} N/m: the mass rebounds {:.1} percent too slowly, expected at most \
+                 {longest:.2e} s for {:.0} percent",
                 self.substep,
                 wall.k,
                 100.0 * wall.rebound_lost(M, self.substep),

@@ -28,6 +28,9 @@ impl GearLoss {
     /// Friction (N·m) against the positive and against the negative direction, under the torque `tau` (N·m).
     #[inline]
     pub fn against(&self, tau: f64) -> [f64; 2] {
+        if self.drive == 0.0 && self.back == 0.0 {
+            return [0.0; 2];
+        }
         let (ahead, back) = (self.drive * tau, self.back / (1.0 - self.back) * tau);
         if tau >= 0.0 {
             [ahead, back]

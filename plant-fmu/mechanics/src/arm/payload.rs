@@ -69,20 +69,20 @@ impl Hold {
 }
 
 impl Vacuum {
-    /// What happens to a payload that is `attached` or not, from the vacuum's switch `on`, whether the bond `bears` its load,
-    /// and the `pressure` of the table on the pad (N).
-    pub fn event(&self, attached: bool, on: bool, bears: bool, pressure: f64) -> Event {
+    /// What happens to a payload that is `attached` or not, from the vacuum's switch `on`, whether its load `breaks` the
+    /// bond, and the `pressure` of the table on the pad (N).
+    pub fn event(&self, attached: bool, on: bool, breaks: bool, pressure: f64) -> Event {
         match (attached, on) {
             (true, false) => Event::Released,
-            (true, true) if !bears => Event::Breaks,
+            (true, true) if breaks => Event::Breaks,
             (false, true) if pressure > self.F_attach => Event::Attaches,
             _ => Event::Stays,
         }
     }
 
-    /// Whether the bond bears `hold`.
-    pub fn bears(&self, hold: &Hold) -> bool {
-        hold.tension() <= self.F_max && (self.F_shear <= 0.0 || hold.shear() <= self.F_shear)
+    /// Whether `hold` is more than the bond bears.
+    pub fn breaks(&self, hold: &Hold) -> bool {
+        hold.tension() > self.F_max || (self.F_shear > 0.0 && hold.shear() > self.F_shear)
     }
 }
 

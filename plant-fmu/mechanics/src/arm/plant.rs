@@ -93,7 +93,7 @@ impl Arm {
         let event = self.parameters.vacuum.event(
             self.state.attached,
             on,
-            self.parameters.vacuum.bears(&self.shown.hold),
+            self.parameters.vacuum.breaks(&self.shown.hold),
             moved.pressure,
         );
         self.finish(moved.flow, event)
@@ -183,20 +183,23 @@ impl Arm {
         let Parameters { lengths, .. } = &self.parameters;
         let reach = lengths.reach();
         let surfaces = self.parameters.surfaces();
-        ["table.k", "wall.k"].into_iter().enumerate().find_map(|(i, name)| {
-            let (surface, moves) = (&surfaces[i], mobility[FACINGS[i].axis()]);
-            if surface.position.abs() > reach || moves <= 0.0 {
-                return None;
-            }
-            let (wall, m) = (surface.wall(), 1.0 / moves);
-            let longest = wall.longest_substep(m, lost);
-            (dt > longest).then(|| TooStiff {
-                name,
-                k: surface.k,
-                lost: wall.rebound_lost(m, dt),
-                longest,
+        ["table.k", "wall.k"]
+            .into_iter()
+            .enumerate()
+            .find_map(|(i, name)| {
+                let (surface, moves) = (&surfaces[i], mobility[FACINGS[i].axis()]);
+                if surface.position.abs() > reach || moves <= 0.0 {
+                    return None;
+                }
+                let (wall, m) = (surface.wall(), 1.0 / moves);
+                let longest = wall.longest_substep(m, lost);
+                (dt > longest).then(|| TooStiff {
+                    name,
+                    k: surface.k,
+                    lost: wall.rebound_lost(m, dt),
+                    longest,
+                })
             })
-        })
     }
 
     /// What the last substep showed.

@@ -5,14 +5,21 @@ use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
 use super::disc::Slip;
 use super::problem::{FACINGS, Problem};
 use super::quotient::quotient_if;
+use crate::FLOOR;
 
 /// A tangential force is not needed where other forces hold its axis already: where its pivot has shrunk to this part
 /// of the largest diagonal element. Rounding leaves 1e-15; real geometry stays far above.
 const REDUNDANT: f64 = 1e-11;
 /// In a corner the surfaces answer each other until no friction changes by more than this part of the largest.
-const CHANGE: f64 = 1e-16;
+const CHANGE: f64 = 1e-15;
 /// … or this often.
-const SWEEPS: u32 = 2_000;
+const SWEEPS: u32 = 300;
+/// Turns from which Newton's iteration in a corner starts.
+const TURNS: u32 = 3;
+/// Rounds that it has.
+const NEWTON: u32 = 12;
+/// It ends with a step of this part of the velocity: the next would be its square.
+const CLOSE: f64 = 1e-9;
 
 /// The axes of each surface's plane.
 const PLANES: [[usize; 2]; 2] = [FACINGS[0].plane(), FACINGS[1].plane()];
@@ -49,7 +56,12 @@ impl Rubbing<'_> {
         let (contact, normal) = (&self.problem.contacts[k], facing.axis());
         let stiff = contact.kappa_dt * facing.sign();
         let t = Slip {
-            S: Matrix2::new(self.S[(i, i)], self.S[(i, j)], self.S[(i, j)], self.S[(j, j)]),
+            S: Matrix2::new(
+                self.S[(i, i)],
+                self.S[(i, j)],
+                self.S[(i, j)],
+                self.S[(j, j)],
+            ),
             w: Vector2::new(w[i], w[j]),
             n: contact.pressure(facing, w),
             c: Vector2::new(self.S[(normal, i)], self.S[(normal, j)]) * stiff,
@@ -61,14 +73,83 @@ impl Rubbing<'_> {
         friction
     }
 
-    /// Both: held together, or one after the other answers what the other leaves.
+    /// Both: they hold the pad together, or one of them holds it in its plane, or it slides on both.
     #[inline(never)]
     fn in_the_corner(&self, w: &Vector3<f64>) -> [Vector3<f64>; 2] {
         if let Some(held) = self.held(&hold(self.S, -w, [true; 3])) {
             return held;
         }
+        self.one_holds(0, w)
+            .or_else(|| self.one_holds(1, w))
+            .or_else(|| self.both_slide(w))
+            .unwrap_or_else(|| self.answered(w))
+    }
+
+    /// Surface `k` holds the pad in its plane; on the other one it slides along the axis that is left, which is the normal of
+    /// `k`. `None` where the friction of `k` does not suffice for it.
+    fn one_holds(&self, k: usize, w: &Vector3<f64>) -> Option<[Vector3<f64>; 2]> {
+        let ([i, j], other) = (PLANES[k], 1 - k);
+        let mut axes = [false; 3];
+        (axes[i], axes[j]) = (true, true);
+        let free = FACINGS[k].axis();
+        let still = hold(self.S, -w, axes);
+        let slips = (w + self.S * still)[free];
+        let contact = &self.problem.contacts[other];
         let mut t = [Vector3::zeros(); 2];
-        for _ in 0..SWEEPS {
+        // The other surface's normal is held: it pushes as if the pad did not move.
+        t[other][free] = -(contact.mu * contact.push.max(0.0)).copysign(slips);
+        t[k] = hold(self.S, -(w + self.S * t[other]), axes);
+        let moves = w + self.S * (t[0] + t[1]);
+        let own = &self.problem.contacts[k];
+        let most = own.mu * own.pressure(FACINGS[k], &moves);
+        (moves[free] * slips > 0.0 && most > 0.0 && t[k].norm_squared() <= most * most).then_some(t)
+    }
+
+    /// Newton's iteration for a pad that slides on both, from what they answer by turns.
+    ///
+    /// ```text
+    /// v = w + S Σ t(v),   t = −μ n(v) d,   d = v/|v| in the plane
+    /// ```
+    fn both_slide(&self, w: &Vector3<f64>) -> Option<[Vector3<f64>; 2]> {
+        let (start, _) = self.turns(w, TURNS);
+        let mut v = w + self.S * (start[0] + start[1]);
+        for _ in 0..NEWTON {
+            let t = [self.sliding(0, &v)?, self.sliding(1, &v)?];
+            let off = v - w - self.S * (t[0] + t[1]);
+            let yields = self.yields(&v, &t).1;
+            let delta = (Matrix3::identity() + self.S * yields).try_inverse()? * -off;
+            v += delta;
+            if delta.amax() <= CLOSE * v.amax() {
+                return Some([self.sliding(0, &v)?, self.sliding(1, &v)?]);
+            }
+        }
+        None
+    }
+
+    /// Friction of surface `k` on a pad that slides on it at `v`; `None` if it does not.
+    fn sliding(&self, k: usize, v: &Vector3<f64>) -> Option<Vector3<f64>> {
+        let ([i, j], contact) = (PLANES[k], &self.problem.contacts[k]);
+        let most = contact.mu * contact.pressure(FACINGS[k], v);
+        let speed = libm::hypot(v[i], v[j]);
+        if most < 0.0 || speed <= FLOOR {
+            return None;
+        }
+        let mut t = Vector3::zeros();
+        (t[i], t[j]) = (-most * (v[i] / speed), -most * (v[j] / speed));
+        Some(t)
+    }
+
+    /// Friction of both by turns: slow, and where the rest fails.
+    fn answered(&self, w: &Vector3<f64>) -> [Vector3<f64>; 2] {
+        self.turns(w, SWEEPS).0
+    }
+
+    /// Friction after at most `most` turns, and how many it took.
+    fn turns(&self, w: &Vector3<f64>, most: u32) -> ([Vector3<f64>; 2], u32) {
+        let mut t = [Vector3::zeros(); 2];
+        let mut turns = 0;
+        while turns < most {
+            turns += 1;
             let before = t;
             for k in [0, 1] {
                 t[k] = self.of(k, &(w + self.S * t[1 - k]));
@@ -78,7 +159,7 @@ impl Rubbing<'_> {
                 break;
             }
         }
-        t
+        (t, turns)
     }
 
     /// `t` shared between the surfaces, if they can hold a pad at rest with it.
@@ -111,6 +192,14 @@ impl Rubbing<'_> {
     /// dw = S (dΛ + dt),   −dt = μ n (1 − d dᵀ) dw/|w_t| + μ d dn where it slides along d, dw = 0 where it is held
     /// ```
     pub(crate) fn mobility(&self, w: &Vector3<f64>, friction: &[Vector3<f64>; 2]) -> Matrix3<f64> {
+        let (held, yields) = self.yields(w, friction);
+        let S = without(self.S, held);
+        let regular = Matrix3::identity() + S * yields;
+        regular.try_inverse().unwrap_or_else(Matrix3::zeros) * S
+    }
+
+    /// Which axes are held, and by how much friction yields to a velocity of the others: −∂t/∂w.
+    fn yields(&self, w: &Vector3<f64>, friction: &[Vector3<f64>; 2]) -> ([bool; 3], Matrix3<f64>) {
         let mut held = [false; 3];
         let mut yields = Matrix3::zeros();
         for k in 0..FACINGS.len() {
@@ -136,9 +225,7 @@ impl Rubbing<'_> {
                 yields[(row, normal)] -= contact.mu * d_row * contact.kappa_dt * facing.sign();
             }
         }
-        let S = without(self.S, held);
-        let regular = Matrix3::identity() + S * yields;
-        regular.try_inverse().unwrap_or_else(Matrix3::zeros) * S
+        (held, yields)
     }
 }
 
@@ -190,4 +277,72 @@ fn hold(mut S: Matrix3<f64>, mut y: Vector3<f64>, axes: [bool; 3]) -> Vector3<f6
         t[axis] = quotient_if(used[axis], y[axis], S[(axis, axis)]);
     }
     t
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::arm::problem::{Contact, Joint};
+
+    /// Numbers from −1 to 1, the same in every run.
+    fn numbers() -> impl FnMut() -> f64 {
+        let mut state = 1_u32;
+        move || {
+            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            f64::from(state) / f64::from(u32::MAX) * 2.0 - 1.0
+        }
+    }
+
+    #[test]
+    fn in_a_corner_the_closed_forms_and_newton_leave_nothing_to_answering_by_turns() {
+        let mut number = numbers();
+        let mut by_turns = 0;
+        for _ in 0..20_000 {
+            let mut matrix = || Matrix3::from_fn(|_, _| number());
+            let root = matrix();
+            let w = matrix().column(0) * 0.05;
+            let contact = |push| Contact {
+                push,
+                kappa_dt: 0.03,
+                mu: 0.4,
+            };
+            let problem = Problem {
+                A: Matrix3::identity(),
+                b: Vector3::zeros(),
+                joints: [Joint {
+                    against: [0.0; 2],
+                    low: -1.0,
+                    high: 1.0,
+                }; 3],
+                J: Matrix3::identity(),
+                contacts: [contact(0.05), contact(0.05 + 0.04 * number())],
+            };
+            let rubbing = Rubbing {
+                problem: &problem,
+                pushes: [true; 2],
+                S: root * root.transpose() * 0.3 + Matrix3::identity() * 0.01,
+            };
+            let found = rubbing
+                .held(&hold(rubbing.S, -w, [true; 3]))
+                .or_else(|| rubbing.one_holds(0, &w))
+                .or_else(|| rubbing.one_holds(1, &w))
+                .or_else(|| rubbing.both_slide(&w));
+            let (slow, turns) = rubbing.turns(&w, 100_000);
+            let Some(found) = found else {
+                by_turns += 1;
+                continue;
+            };
+            // By turns it errs by its last change over what the turns converge with.
+            if turns < 1_000 {
+                let v = [found, slow].map(|t| w + rubbing.S * (t[0] + t[1]));
+                assert!(
+                    (v[0] - v[1]).amax() < 1e-10,
+                    "{turns} {w} {} {}",
+                    v[0],
+                    v[1]
+                );
+            }
+        }
+        assert!(by_turns < 200, "{by_turns}");
+    }
 }

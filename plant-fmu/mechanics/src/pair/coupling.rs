@@ -112,9 +112,8 @@ impl Coupling {
 
     /// ∂F/∂Λ at what was `tried`.
     fn slope(&self, problems: [&Problem; 2], tried: &Tried) -> Matrix3<f64> {
-        let W = [0, 1].map(|i| {
-            mobility(problems[i], &tried.guesses[i], &(tried.impulse * SIGNS[i]))
-        });
+        let W =
+            [0, 1].map(|i| mobility(problems[i], &tried.guesses[i], &(tried.impulse * SIGNS[i])));
         Matrix3::identity() + (W[0] + W[1]) * self.kappa_dt
     }
 

@@ -145,7 +145,7 @@ impl Pair {
         vacuum.event(
             attached,
             suck[0] && suck[1],
-            vacuum.bears(&left.shown.hold) && vacuum.bears(&right.shown.hold),
+            vacuum.breaks(&left.shown.hold) || vacuum.breaks(&right.shown.hold),
             moved[0].pressure.min(moved[1].pressure),
         )
     }
