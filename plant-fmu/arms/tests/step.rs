@@ -143,7 +143,7 @@ fn a_step_of_too_many_substeps_is_refused_before_anything_moves() {
 #[test]
 fn numbers_out_of_range_are_refused() {
     let mut arms = lifting();
-    arms.inputs.right.f_h[0] = 1e308;
+    arms.inputs.right.f_h = [f64::MAX; 3];
     let step = Step::at(0.0, 1.0);
     let refusal = arms.step(step, &mut Log::silent()).unwrap_err();
     assert!(
