@@ -1,5 +1,6 @@
 //! What the arm is made of, and where it starts: one row each, numbered from A1 on. A new row takes the next number that is
-//! free in both FMUs of the arm: 60 (ExoskeletonArm counts from 36 and ends at 95, ExoskeletonArms from 49 and at 108).
+//! free in both FMUs of the arm: 54, and not 62 (ExoskeletonArm counts from 36 and ends at 88, ExoskeletonArms from 49; its
+//! outputs stand at 101, 102 and 111).
 
 use declaration::{Rows, Start};
 
