@@ -82,7 +82,8 @@ def test_one_hand_alone_does_not_lift_what_its_arm_s_limit_does_not_bear(experim
     run = experiment.recordings["left_only"]
     pressed = (run.time > 8.5) & (run.time < 9.4)
     assert run["plant.attached"][pressed].all()
-    assert np.ptp(run["plant.left.p[3]"][pressed]) < 1e-4
+    # No lift: the tables' springs give back a fraction of the 4 mm by which they were pressed in.
+    assert np.ptp(run["plant.left.p[3]"][pressed]) < 1e-3
     # The left law asks for K f_h = 8 kN and gets f_max = 400 N; the right one, which no hand pushes, asks for nothing.
     assert np.allclose(run["left_controller.f_a[3]"][pressed], 400.0, atol=1.0)
     # So the right half hangs at the left one: 17.5 kg · 9.81 m/s², but for what the right arm's stiction bears.

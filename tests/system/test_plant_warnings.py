@@ -16,7 +16,7 @@ def told(archive: Archive, **values: float | bool) -> list[tuple[str, str]]:
     with Instance(archive, "told") as instance:
         for name, value in values.items():
             variable = archive.variable(name.replace("_", ".", 1))
-            reference = [variable.reference]
+            reference = [variable.valueReference]
             if variable.type == "Boolean":
                 instance._slave.setBoolean(reference, [value])
             else:
@@ -25,7 +25,7 @@ def told(archive: Archive, **values: float | bool) -> list[tuple[str, str]]:
         instance.enter_initialization_mode()
         instance.messages.clear()
         instance.exit_initialization_mode()
-        return [one for one in instance.messages if "fmi2" not in one[1]]
+        return [one for one in instance.messages if " initialized at t = " not in one[1]]
 
 
 @pytest.mark.parametrize("name", PLANTS)
@@ -38,7 +38,7 @@ def test_the_start_values_give_no_warning(name: str, archives: Mapping[str, Arch
     [
         ("Testbed.fmu", "wall_k", {}, 15.0),
         ("ExoskeletonArm.fmu", "table_k", {"table_z": -0.4}, 12.6),
-        ("ExoskeletonArms.fmu", "wall_k", {"wall_x": 0.6}, 5.3),
+        ("ExoskeletonArms.fmu", "wall_k", {"wall_x": 0.6}, 6.2),
     ],
 )
 def test_a_contact_too_stiff_for_the_substep_is_named_with_what_it_costs_and_what_helps(
