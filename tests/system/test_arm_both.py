@@ -62,3 +62,31 @@ def test_both_cups_bear_the_weight_together_whoever_lifts_more(experiment: Exper
     assert abs(np.mean(left - right)) > 1.0
     # Each half hangs at its own pad: what the tensions differ by is twice what passes inside the payload.
     assert np.isclose(np.mean(left - right), -2.0 * np.mean(run["plant.lambda[3]"][slow]), rtol=0.02)
+
+
+def test_the_wrists_bear_the_moment_of_the_pads_forces_about_the_middle_of_the_payload(experiment: Experiment) -> None:
+    """From the tensions, not from lambda: each cup pulls at its end, half the pads' distance from the middle."""
+    for case in ("unequal", "left_only"):
+        run = experiment.recordings[case]
+        resting = (run.time > 9.0) & (run.time < 9.4)
+        apart = np.mean((run["plant.left.p_pad[2]"] - run["plant.right.p_pad[2]"])[resting])
+        ends = [run[f"plant.{side}.tension"] + run[f"plant.{side}.f_e[3]"] for side in ("left", "right")]
+        expected = -0.5 * apart * np.mean((ends[0] - ends[1])[resting])
+        found = np.mean(run["plant.wrist[1]"][resting])
+        assert abs(found) > 5.0
+        # Both halves accelerate alike, but for a gap of 10 µm.
+        assert np.isclose(found, expected, rtol=1e-3), case
+
+
+def test_one_hand_alone_does_not_lift_what_its_arm_s_limit_does_not_bear(experiment: Experiment) -> None:
+    run = experiment.recordings["left_only"]
+    pressed = (run.time > 8.5) & (run.time < 9.4)
+    assert run["plant.attached"][pressed].all()
+    # No lift: the tables' springs give back a fraction of the 4 mm by which they were pressed in.
+    assert np.ptp(run["plant.left.p[3]"][pressed]) < 1e-3
+    # The left law asks for K f_h = 8 kN and gets f_max = 400 N; the right one, which no hand pushes, asks for nothing.
+    assert np.allclose(run["left_controller.f_a[3]"][pressed], 400.0, atol=1.0)
+    # So the right half hangs at the left one: 17.5 kg · 9.81 m/s², but for what the right arm's stiction bears.
+    right = 17.5 * 9.81
+    stiction = 18.0 / 0.38
+    assert abs(abs(np.mean(run["plant.lambda[3]"][pressed])) - right) < stiction

@@ -20,8 +20,8 @@ from exo.fmu import Archive
 
 #: FMU → components and connections of its quick start.
 SYSTEMS = {
-    "TestbedController": (2, 3),
-    "Testbed": (2, 3),
+    "TestbedController": (3, 6),
+    "Testbed": (3, 6),
     "ArmController": (3, 18),
     "ExoskeletonArm": (3, 18),
     "HumanOperator": (3, 18),

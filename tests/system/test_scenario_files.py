@@ -103,6 +103,38 @@ def test_built_in_scenarios_are_valid_and_carry_their_file_s_name(name: str) -> 
     assert scenario.load(name).id == name
 
 
+#: Scenarios whose subject is the sensor's delay, not what `ft.*` say.
+SENSOR_DELAY = {"coupling_delay"}
+NO_PLANT = {"HumanOperator.fmu"}
+#: What a human's force may come from, and what a sensor makes of it.
+FORCE, READING = r"(profile\.\w+|\w+\.f_h\[\d\])", r"plant\.(tau_h_measured|f_h_measured\[\d\])"
+
+
+@pytest.mark.parametrize("name", scenario.built_in())
+def test_the_controller_gets_the_force_itself_unless_the_sensor_is_the_subject(name: str) -> None:
+    """docs/specification.md section 3, Which force the controller gets."""
+    one = scenario.load(name)
+    sensor = any(key.startswith("plant.ft.") for case in one.cases for key in case.parameters)
+    controllers = {part for part, component in one.components.items() if "Controller" in component.archive}
+    plants = {part for part, component in one.components.items() if component.archive not in NO_PLANT} - controllers
+    read = set()
+    for case in one.cases:
+        inputs = {**one.inputs, **case.inputs}
+        for target, source in inputs.items():
+            part, _, variable = target.partition(".")
+            if part not in controllers or not re.fullmatch(r"tau_h|f_h\[\d\]", variable):
+                continue
+            assert re.fullmatch(f"{FORCE}|{READING}", source), f"{case.id}: {target} = {source}"
+            if re.fullmatch(READING, source):
+                read.add(case.id)
+            elif plants:  # the one that the plant gets
+                assert source in {inputs.get(f"plant{side}.{variable}") for side in ("", ".left", ".right")}, case.id
+    if sensor:
+        assert read == {case.id for case in one.cases}
+    elif name not in SENSOR_DELAY:
+        assert not read
+
+
 def test_an_unknown_scenario_names_close_matches() -> None:
     with pytest.raises(ScenarioError, match=r"unknown scenario wal .*wall"):
         scenario.load("wal")

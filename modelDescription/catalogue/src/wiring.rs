@@ -1,4 +1,7 @@
 //! Which output belongs to which input: the connections that the interface documents show.
+//!
+//! The controllers get the human's force itself. A plant's sensor is ideal at the start values: its reading is the same force,
+//! one step later. It takes the force's place where the sensor is the subject.
 
 use model_description::{Connection, System};
 
@@ -12,25 +15,30 @@ const fn wire(
 }
 
 const SERVO: &str = "form = 2 of the controller and drive.mode = 2 of the testbed: position_servo";
+const SENSOR: &str = "where the sensor is the subject, in place of the human's force itself: what it reads comes a step later";
 const LEFT: &str = "a controller and an operator for the left arm";
 const RIGHT: &str = "a controller and an operator for the right arm";
 
 /// All connections.
 #[rustfmt::skip] // a table
-pub const CONNECTIONS: [Connection<'static>; 23] = [
+pub const CONNECTIONS: [Connection<'static>; 27] = [
     wire(("Testbed", "q"), ("TestbedController", "q"), ""),
-    wire(("Testbed", "tau_h_measured"), ("TestbedController", "tau_h"), ""),
+    wire(("HumanOperator", "f_h[1]"), ("TestbedController", "tau_h"), ""),
+    wire(("HumanOperator", "f_h[1]"), ("Testbed", "tau_h"), ""),
+    wire(("Testbed", "tau_h_measured"), ("TestbedController", "tau_h"), SENSOR),
+    wire(("Testbed", "q"), ("HumanOperator", "p[1]"), ""),
+    wire(("Testbed", "dq"), ("HumanOperator", "dp[1]"), ""),
     wire(("TestbedController", "tau_a"), ("Testbed", "tau_a"), ""),
     wire(("TestbedController", "q_d"), ("Testbed", "q_d"), SERVO),
     wire(("TestbedController", "dq_d"), ("Testbed", "dq_d"), SERVO),
     wire(("Testbed", "tau_drive"), ("TestbedController", "tau_a_measured"), SERVO),
     wire(("ExoskeletonArm", "q[i]"), ("ArmController", "q[i]"), ""),
-    wire(("ExoskeletonArm", "f_h_measured[i]"), ("ArmController", "f_h[i]"), ""),
+    wire(("HumanOperator", "f_h[i]"), ("ArmController", "f_h[i]"), ""),
+    wire(("ExoskeletonArm", "f_h_measured[i]"), ("ArmController", "f_h[i]"), SENSOR),
     wire(("ArmController", "tau_a[i]"), ("ExoskeletonArm", "tau_a[i]"), ""),
     wire(("HumanOperator", "f_h[i]"), ("ExoskeletonArm", "f_h[i]"), ""),
     wire(("ExoskeletonArm", "p[i]"), ("HumanOperator", "p[i]"), ""),
     wire(("ExoskeletonArm", "dp[i]"), ("HumanOperator", "dp[i]"), ""),
-    wire(("HumanOperator", "f_h[i]"), ("ArmController", "f_h[i]"), "beside ExoskeletonArms, whose force sensors are ideal"),
     wire(("ExoskeletonArms", "left.q[i]"), ("ArmController", "q[i]"), LEFT),
     wire(("ArmController", "tau_a[i]"), ("ExoskeletonArms", "left.tau_a[i]"), LEFT),
     wire(("HumanOperator", "f_h[i]"), ("ExoskeletonArms", "left.f_h[i]"), LEFT),
@@ -51,13 +59,23 @@ pub fn of(fmu: &str) -> Vec<Connection<'static>> {
 }
 
 const TESTBED: System<'static> = System {
-    parts: &[("controller", "TestbedController"), ("plant", "Testbed")],
+    parts: &[
+        ("controller", "TestbedController"),
+        ("plant", "Testbed"),
+        ("operator", "HumanOperator"),
+    ],
     wires: &[
         (("plant", "q"), ("controller", "q")),
-        (("plant", "tau_h_measured"), ("controller", "tau_h")),
+        (("operator", "f_h[1]"), ("controller", "tau_h")),
         (("controller", "tau_a"), ("plant", "tau_a")),
+        (("operator", "f_h[1]"), ("plant", "tau_h")),
+        (("plant", "q"), ("operator", "p[1]")),
+        (("plant", "dq"), ("operator", "dp[1]")),
     ],
-    start: &[("controller", "delay", "1"), ("plant", "tau_h", "4.0")],
+    start: &[
+        ("controller", "delay", "1"),
+        ("operator", "segment[1].amplitude", "4.0"),
+    ],
 };
 
 const ARM: System<'static> = System {
@@ -68,7 +86,7 @@ const ARM: System<'static> = System {
     ],
     wires: &[
         (("plant", "q[i]"), ("controller", "q[i]")),
-        (("plant", "f_h_measured[i]"), ("controller", "f_h[i]")),
+        (("operator", "f_h[i]"), ("controller", "f_h[i]")),
         (("controller", "tau_a[i]"), ("plant", "tau_a[i]")),
         (("operator", "f_h[i]"), ("plant", "f_h[i]")),
         (("plant", "p[i]"), ("operator", "p[i]")),

@@ -30,7 +30,7 @@
 //! | `f_h_measured` | f_h + tool's weight + lag + bias + drift + noise | of the force sensor, in its frame, at its own clock | [`force_sensor::ForceSensor`] |
 //! | `tau_applied` | τ | dτ/dt = 2π f (τ_a − τ), f = `drive.cutoff` | [`mechanics::arm::drive`] |
 //! | `f_e` | f_e | of table and wall on the pad, where no sensor is | [`mechanics::arm::surface`] |
-//! | `attached`, `tension` | | the payload that the vacuum holds, and its pull | [`mechanics::arm::payload`] |
+//! | `attached`, `tension`, `shear` | | the payload that the vacuum holds, and the pad's force on it | [`mechanics::arm::payload`] |
 //! | `energy.*` | | Σ work + payload − Σ loss − (E − E(0)) = residual | [`mechanics::arm::energy`] |
 //!
 //! 1. Parameters are checked by [`initialize`](export::Model::initialize); the outputs then show the start state.

@@ -5,15 +5,17 @@ use crate::force_sensor::Reading;
 use crate::rows::{Outputs, RigidBody};
 use export::access::check_parameters;
 use export::{Clock, Log, Model, Refusal, Step};
+use mechanics::arm::surface::TooStiff;
 use mechanics::arm::{Arm, Inputs, Parameters, Start};
 use nalgebra::{Matrix3, Vector3};
 
 impl Model for ExoskeletonArm {
-    fn initialize(&mut self, start_time: f64, _log: &mut Log<'_>) -> Result<(), Refusal> {
+    fn initialize(&mut self, start_time: f64, log: &mut Log<'_>) -> Result<(), Refusal> {
         check_parameters(self)?;
         check_payload(&self.parameters, &self.start)?;
         self.plant = Arm::new(self.parameters, &self.start).map_err(Refusal::new)?;
         self.reading = Reading::default();
+        tell(&self.plant, self.substep, log);
         self.sample(0, start_time);
         self.show();
         Ok(())
@@ -29,6 +31,7 @@ impl Model for ExoskeletonArm {
 
     fn step(&mut self, step: Step, log: &mut Log<'_>) -> Result<(), Refusal> {
         let (n, dt) = step.substeps(self.substep);
+        let sucked = self.inputs.vacuum || self.plant.kept();
         // The sensor samples after the first substep that does not end before its instant, in the pose of then.
         if let Some((k, after)) = self.ft.due(&step, self.reading.k) {
             let before = ((after / dt - 1e-6).ceil() as u32).clamp(1, n);
@@ -49,13 +52,10 @@ impl Model for ExoskeletonArm {
             ..
         } = &self.outputs;
         let Inputs {
-            tau_a,
-            f_h,
-            f_d,
-            vacuum,
+            tau_a, f_h, f_d, ..
         } = self.inputs;
         if was_attached != *attached {
-            let what = match (attached, vacuum) {
+            let what = match (attached, sucked) {
                 (true, _) => "payload gripped",
                 (false, false) => "payload released",
                 (false, true) => "payload lost: the bond broke",
@@ -98,6 +98,7 @@ impl ExoskeletonArm {
             q_joint: q.into(),
             p_pad: place.pad.p.into(),
             tension: plant.tension(),
+            shear: plant.shear(),
             energy: plant.energy(),
             rigid_body: RigidBody {
                 M: rows(&body.M),
@@ -108,6 +109,33 @@ impl ExoskeletonArm {
             attached: plant.attached(),
             contact: plant.contact(),
         };
+    }
+}
+
+/// A rebound may miss this share of its speed before the substep is said to be too long.
+pub const REBOUND_LOST: f64 = 0.02;
+
+/// What the user of an arm should know of its parameters: a contact too stiff for the `substep` (s), a payload that waits for
+/// its vacuum.
+pub fn tell(arm: &Arm, substep: f64, log: &mut Log<'_>) {
+    if let Some(TooStiff {
+        name,
+        k,
+        lost,
+        longest,
+    }) = arm.too_stiff(substep, REBOUND_LOST)
+    {
+        log.warning(format_args!(
+            "substep = {substep:?} s is too long for {name} = {k:?} N/m: the pad rebounds {:.1} percent too slowly, expected at most \
+             {longest:.2e} s for {:.0} percent",
+            100.0 * lost,
+            100.0 * REBOUND_LOST
+        ));
+    }
+    if arm.kept() {
+        log.event(format_args!(
+            "payload.attached = true: the payload hangs until vacuum has been true and is false again"
+        ));
     }
 }
 

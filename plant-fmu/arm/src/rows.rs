@@ -74,6 +74,9 @@ pub struct Outputs {
     /// upward pull of the pad on the payload, mean of the last substep; 0 without payload and at the start
     #[output(16, unit = NEWTON)]
     pub tension: f64,
+    /// level force of the pad on the payload, its size, mean of the last substep; 0 without payload and at the start
+    #[output(88, unit = NEWTON)]
+    pub shear: f64,
     /// The energy balance.
     #[part(from = 17)]
     pub energy: Energy,

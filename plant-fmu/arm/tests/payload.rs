@@ -1,12 +1,12 @@
 //! The payload through the input `vacuum`: gripped, held, released, lost.
 #![allow(
     non_snake_case,
-    reason = "the interface's symbols with its capitals: F_max"
+    reason = "the interface's symbols with its capitals: F_max, F_shear"
 )]
 
 mod arm;
 
-use arm::{run, started, step};
+use arm::{bytes, run, started};
 use exoskeleton_arm::ExoskeletonArm;
 
 /// The arm 20 mm above a table on which 10 kg lie; the human presses the pad on it.
@@ -88,14 +88,74 @@ fn release_leaves_the_payload_behind() {
 }
 
 #[test]
-fn a_payload_that_hangs_from_the_start_falls_without_vacuum() {
+fn a_payload_that_hangs_from_the_start_stays_until_the_vacuum_has_been_on() {
     let mut arm = started(|arm| {
         arm.parameters.payload_m = 10.0;
         arm.start.attached = true;
     });
+    run(&mut arm, 0, 500); // nobody wired vacuum
     assert!(arm.outputs.attached);
-    step(&mut arm, 0.0, 1e-3);
+    let saved = bytes(&arm);
+    arm.inputs.vacuum = true;
+    run(&mut arm, 500, 501);
+    assert!(arm.outputs.attached);
+    arm.inputs.vacuum = false;
+    run(&mut arm, 501, 502);
     assert!(!arm.outputs.attached);
+    // What it waits for is part of the state.
+    let mut restored: ExoskeletonArm = postcard::from_bytes(&saved).unwrap();
+    run(&mut restored, 500, 600);
+    assert!(restored.outputs.attached);
+}
+
+#[test]
+fn a_payload_lost_without_vacuum_is_not_gripped_again() {
+    let mut arm = started(|arm| {
+        arm.parameters.table.z = -0.37710;
+        arm.parameters.payload_m = 10.0;
+        arm.start.attached = true;
+        arm.parameters.vacuum.F_max = 90.0;
+    });
+    arm.inputs.f_h = [0.0, 0.0, 98.1];
+    run(&mut arm, 0, 100);
+    assert!(!arm.outputs.attached);
+    arm.inputs.f_h = [0.0, 0.0, -150.0];
+    run(&mut arm, 100, 1500);
+    assert!(arm.outputs.contact && !arm.outputs.attached);
+}
+
+/// A payload of 10 kg that hangs, with gravity forward besides: at rest the bond bears 98.1 N up and the `sideways` force (N).
+fn sheared(F_shear: f64, sideways: [f64; 2]) -> ExoskeletonArm {
+    let mut arm = started(|arm| {
+        arm.parameters.payload_m = 10.0;
+        arm.start.attached = true;
+        arm.parameters.vacuum.F_shear = F_shear;
+        arm.parameters.masses.gravity = [-sideways[0] / 10.0, -sideways[1] / 10.0, -9.81];
+        for friction in &mut arm.parameters.friction {
+            (friction.F_c, friction.F_s) = (1e4, 1e4); // nothing moves
+        }
+    });
+    run(&mut arm, 0, 20);
+    arm
+}
+
+#[test]
+fn shear_breaks_the_bond_beyond_its_strength_in_any_direction_and_at_the_start_none_does() {
+    for [x, y] in [[60.0, 0.0], [0.0, -60.0], [36.0, 48.0]] {
+        for (F_shear, holds) in [(0.0, true), (60.0 + 1e-9, true), (60.0 - 1e-9, false)] {
+            let arm = sheared(F_shear, [x, y]);
+            assert_eq!(arm.outputs.attached, holds, "{x} {y} {F_shear}");
+            if holds {
+                // At rest it is the payload's own force: |m g| across.
+                assert!(
+                    (arm.outputs.shear - 60.0).abs() < 1e-12,
+                    "{}",
+                    arm.outputs.shear
+                );
+                assert!((arm.outputs.tension - 98.1).abs() < 1e-12);
+            }
+        }
+    }
 }
 
 #[test]

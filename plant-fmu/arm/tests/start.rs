@@ -165,7 +165,7 @@ fn the_physics_refuses_what_lies_beyond_the_bounds_of_any_row() {
             }
         }
     }
-    assert_eq!(checked, 2 * 72);
+    assert_eq!(checked, 2 * 79);
 }
 
 fn bits(row: &Variable<ExoskeletonArm>, arm: &ExoskeletonArm) -> Vec<u64> {

@@ -32,6 +32,7 @@
 //! | `left.*`, `right.*` | | as of `ExoskeletonArm.fmu` | [`exoskeleton_arm`] |
 //! | `gap` | \|g\| | g = p_L − p_R − r, r = p_L − p_R at the grip | [`mechanics::pair::Pair::gap`] |
 //! | `lambda` | λ | of the payload's right half on its left one: −k g − c dg/dt | [`mechanics::pair::bond`] |
+//! | `wrist` | | (p_L − p_R) × λ: moment of the stiff wrists on the payload, which keeps its direction | [`mechanics::pair::Pair::wrist`] |
 //! | `attached` | | by both cups or by none | [`mechanics::pair`] |
 //! | `energy.*` | | of both arms and the bond together | [`mechanics::pair::Balance`] |
 //!

@@ -2,7 +2,7 @@
 
 use crate::ExoskeletonArms;
 use crate::rows::{Inputs, Outputs, Side};
-use exoskeleton_arm::model::check_payload;
+use exoskeleton_arm::model::{check_payload, tell};
 use export::access::check_parameters;
 use export::{Log, Model, Refusal, Step};
 use mechanics::arm::Arm;
@@ -10,10 +10,11 @@ use mechanics::pair::Pair;
 use nalgebra::Vector3;
 
 impl Model for ExoskeletonArms {
-    fn initialize(&mut self, _start_time: f64, _log: &mut Log<'_>) -> Result<(), Refusal> {
+    fn initialize(&mut self, _start_time: f64, log: &mut Log<'_>) -> Result<(), Refusal> {
         check_parameters(self)?;
         check_payload(&self.parameters.arm, &self.start)?;
         self.plant = Pair::new(self.parameters, &self.start).map_err(Refusal::new)?;
+        tell(&self.plant.arms()[0], self.substep, log);
         self.show();
         Ok(())
     }
@@ -25,12 +26,13 @@ impl Model for ExoskeletonArms {
     fn step(&mut self, step: Step, log: &mut Log<'_>) -> Result<(), Refusal> {
         let (n, dt) = step.substeps(self.substep);
         let Inputs { left, right } = self.inputs;
+        let suck = [0, 1].map(|i| [left, right][i].vacuum || self.plant.arms()[i].kept());
         self.plant.advance(&[left, right], n, dt);
         let was_attached = self.outputs.attached;
         self.show();
         let shown = &self.outputs;
         if was_attached != shown.attached {
-            let what = match (shown.attached, left.vacuum && right.vacuum) {
+            let what = match (shown.attached, suck[0] && suck[1]) {
                 (true, _) => "payload gripped by both cups",
                 (false, false) => "payload released by both cups",
                 (false, true) => "payload lost: the bond of one cup broke, both are free",
@@ -62,6 +64,10 @@ impl ExoskeletonArms {
             right: Side::of(right, -self.base.y),
             gap: self.plant.gap(),
             lambda: self.plant.lambda().into(),
+            wrist: self
+                .plant
+                .wrist(&Vector3::new(0.0, 2.0 * self.base.y, 0.0))
+                .into(),
             energy: self.plant.energy(),
             attached: self.plant.attached(),
         };
@@ -82,7 +88,8 @@ impl Side {
             f_e: shown.f_e.into(),
             tau_applied: state.tau.into(),
             tau_f: shown.tau_f.into(),
-            tension: shown.tension,
+            tension: arm.tension(),
+            shear: arm.shear(),
             contact: shown.contact,
         }
     }

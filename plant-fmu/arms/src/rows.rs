@@ -57,7 +57,8 @@ const ON_THIS_ARM: &[(&str, &str)] = &[
     ),
     (
         "vacuum",
-        "whether the cup at this pad sucks; the payload is held by both cups or by none",
+        "whether the cup at this pad sucks; the payload is held by both cups or by none, and one that hangs from the start on \
+         until this has been true",
     ),
 ];
 
@@ -80,6 +81,10 @@ pub struct Outputs {
     /// The energy balance of both arms and the bond.
     #[part(from = 31)]
     pub energy: Balance,
+    /// moment of both pads' wrists together on the payload, which therefore does not turn: (p_L - p_R) x lambda; base frame,
+    /// mean of the last substep; 0 without payload and at the start
+    #[output(102, unit = NEWTON_METRE)]
+    pub wrist: [f64; 3],
     /// whether the payload hangs at both pads
     #[output(28, from = ["payload.attached"])]
     pub attached: bool,
@@ -116,6 +121,9 @@ pub struct Side {
     /// upward pull of this pad on the payload, mean of the last substep; 0 without payload and at the start
     #[output(9, unit = NEWTON)]
     pub tension: f64,
+    /// level force of this pad on the payload, its size, mean of the last substep; 0 without payload and at the start
+    #[output(93, unit = NEWTON)]
+    pub shear: f64,
     /// whether table or wall pushed in the last substep
     #[output(8)]
     pub contact: bool,

@@ -100,7 +100,7 @@ fn the_table_of_the_arm_is_that_of_the_single_arm() {
         rows::<ExoskeletonArms>(&["bond.", "base.", "payload.m"]),
         one
     );
-    assert_eq!(one.len(), 37);
+    assert_eq!(one.len(), 40);
 }
 
 #[test]
@@ -122,7 +122,7 @@ fn each_side_has_the_ports_of_the_single_arm() {
             );
             seen += 1;
         }
-        assert_eq!(seen, 14);
+        assert_eq!(seen, 15);
     }
 }
 

@@ -49,6 +49,37 @@ fn each_port_drives_its_own_arm() {
 }
 
 #[test]
+fn the_wrists_bear_the_moment_of_the_pads_forces_about_the_payloads_middle() {
+    // At rest nothing but the cups holds the payload up: T_L and T_R, 0.2 m to the left and to the right of its middle. They
+    // turn it about x with 0.2 (T_L − T_R), and the wrists turn it back.
+    let mut arms = started(|arms| {
+        arms.parameters.arm.payload_m = 20.0;
+        arms.start.attached = true;
+    });
+    (arms.inputs.left.vacuum, arms.inputs.right.vacuum) = (true, true);
+    arms.inputs.left.tau_a = [0.0, 100.0, 60.0];
+    arms.inputs.right.tau_a = [0.0, 60.0, 36.0];
+    run(&mut arms, 0, 3000);
+    let shown = &arms.outputs;
+    assert!(shown.attached && shown.left.dq == [0.0; 3] && shown.right.dq == [0.0; 3]);
+    let apart = shown.left.tension - shown.right.tension;
+    assert!(apart.abs() > 1.0, "{apart}");
+    assert!(
+        (shown.wrist[0] + 0.2 * apart).abs() < 1e-9,
+        "{:?}",
+        shown.wrist
+    );
+    // Level forces: equal and opposite at rest, as the payload pulls at neither pad: they turn it about z.
+    let shears = [shown.left.shear, shown.right.shear];
+    assert!((shears[0] - shears[1]).abs() < 1e-9, "{shears:?}");
+    // No moment about the line between the pads.
+    let r: Vec<_> = (0..3)
+        .map(|i| shown.left.p_pad[i] - shown.right.p_pad[i])
+        .collect();
+    assert!((0..3).map(|i| r[i] * shown.wrist[i]).sum::<f64>().abs() < 1e-12);
+}
+
+#[test]
 fn the_payload_ties_the_arms_and_lambda_says_how_hard() {
     let mut arms = lifting();
     run(&mut arms, 0, 500);
@@ -112,7 +143,7 @@ fn a_step_of_too_many_substeps_is_refused_before_anything_moves() {
 #[test]
 fn numbers_out_of_range_are_refused() {
     let mut arms = lifting();
-    arms.inputs.right.f_h[0] = 1e308;
+    arms.inputs.right.f_h = [f64::MAX; 3];
     let step = Step::at(0.0, 1.0);
     let refusal = arms.step(step, &mut Log::silent()).unwrap_err();
     assert!(

@@ -49,6 +49,23 @@ impl Wall {
         self.k * dt + self.c
     }
 
+    /// Longest substep (s) of which backward Euler costs a mass `m` (kg) no more than the share `lost` of its rebound speed. The
+    /// spring's oscillation at ω = √(k/m) shrinks by 1/√(1 + (ω dt)²) a substep, and contact lasts half a period:
+    ///
+    /// ```text
+    /// 1 − lost = exp(−π ω dt/2)
+    /// ```
+    ///
+    /// up to terms of second order in ω dt; what the damper takes is not counted.
+    pub fn longest_substep(&self, m: f64, lost: f64) -> f64 {
+        -2.0 * libm::log(1.0 - lost) / (core::f64::consts::PI * libm::sqrt(self.k / m))
+    }
+
+    /// Share of its rebound speed that a substep of `dt` (s) costs a mass `m` (kg), by the same formula.
+    pub fn rebound_lost(&self, m: f64, dt: f64) -> f64 {
+        1.0 - libm::exp(-0.5 * core::f64::consts::PI * libm::sqrt(self.k / m) * dt)
+    }
+
     /// Energy stored in the deflection `s` (m), in J: ½ k s².
     pub fn energy(&self, s: f64) -> f64 {
         0.5 * self.k * s * s

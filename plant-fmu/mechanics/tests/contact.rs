@@ -124,6 +124,53 @@ fn restitution_converges_to_the_closed_form_with_order_one() {
     assert!((e_1 / e_2 - 2.0).abs() < 2e-2, "{e_1:e} {e_2:e}");
 }
 
+/// Share of the rebound speed that is missing from the closed form of an undamped wall of stiffness `k`: all of it comes back.
+fn missing(k: f64, dt: f64) -> f64 {
+    let wall = Wall { k, c: 0.0, ..WALL };
+    let parameters = Parameters {
+        M: MASS_KG,
+        friction: NO_FRICTION,
+        wall,
+    };
+    let mut plant = Testbed::new(parameters, wall.q, 0.5).unwrap();
+    let contact = std::f64::consts::PI * (MASS_KG / k).sqrt();
+    plant.advance(
+        &Forces::default(),
+        (2.0 * contact / dt).ceil() as u32 + 2,
+        dt,
+    );
+    assert_eq!(plant.tau_e(), 0.0);
+    1.0 + plant.dq() / 0.5
+}
+
+#[test]
+fn rebound_speed_loses_at_the_default_substep_what_is_said_and_2_percent_at_the_substep_that_is_advised()
+ {
+    let wall = |k| Wall { k, ..WALL };
+    for (k, measured) in [
+        (1e5, 0.0161),
+        (1e6, 0.0499),
+        (1e7, 0.148),
+        (1e8, 0.395),
+        (1e9, 0.751),
+    ] {
+        let (lost, said) = (missing(k, 8e-5), wall(k).rebound_lost(MASS_KG, 8e-5));
+        assert!((lost - measured).abs() < 0.01 * measured, "{k:e}: {lost}");
+        // The formula is of first order in ω dt, 0.01 to 1.
+        assert!((said - lost).abs() < 0.08 * lost, "{k:e}: {said} {lost}");
+    }
+    for k in [1e5, 1e6, 1e7, 1e8, 1e9] {
+        let dt = wall(k).longest_substep(MASS_KG, 0.02);
+        let lost = missing(k, dt);
+        assert!((0.015..=0.0202).contains(&lost), "{k:e} {dt:e}: {lost}");
+        assert!((wall(k).rebound_lost(MASS_KG, dt) - 0.02).abs() < 1e-12);
+    }
+    assert!(
+        wall(1e5).longest_substep(MASS_KG, 0.02) > 8e-5,
+        "the start values are not warned of"
+    );
+}
+
 #[test]
 fn the_wall_never_pulls_and_the_released_surface_relaxes_alone() {
     let mut plant = landing(1.0);

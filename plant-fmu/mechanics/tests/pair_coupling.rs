@@ -30,7 +30,7 @@ fn problem(friction: f64, push: f64) -> impl Strategy<Value = Problem> {
             A: root * root.transpose() + Matrix3::identity(),
             b,
             joints: limits.map(|limit| Joint {
-                limit: limit * friction,
+                against: [limit * friction, 0.8 * limit * friction],
                 low: -1e3,
                 high: 1e3,
             }),

@@ -118,7 +118,7 @@ fn a_bond_that_breaks_at_one_cup_is_lost_at_both() {
         let mut steps = 0;
         while pair.attached() && steps < 20_000 {
             pair.advance(&inputs, 1, DT);
-            tension = [0, 1].map(|i| pair.arms()[i].shown().tension);
+            tension = [0, 1].map(|i| pair.arms()[i].tension());
             steps += 1;
         }
         assert!(!pair.arms()[0].state().attached && !pair.arms()[1].state().attached);
@@ -143,7 +143,7 @@ fn tensions_bear_the_weight_together_whoever_lifts() {
             .iter()
             .all(|arm| arm.state().dq.amax() == 0.0 && !arm.shown().contact)
     );
-    let [left, right] = [0, 1].map(|i| pair.arms()[i].shown().tension);
+    let [left, right] = [0, 1].map(|i| pair.arms()[i].tension());
     assert!((left - right).abs() > 1.0, "{left} {right}");
     assert!((left + right - 20.0 * 9.81).abs() < 1e-9, "{left} {right}"); // roundings of 200 N
 }

@@ -5,9 +5,13 @@ use crate::rows::{Outputs, POSITION_SERVO, TORQUE};
 use export::{Log, Model, Refusal, Step};
 use mechanics::parameter::in_range;
 use mechanics::testbed::{self as plant, Forces};
+use mechanics::wall::Wall;
+
+/// A rebound may miss this share of its speed before the substep is said to be too long.
+pub const REBOUND_LOST: f64 = 0.02;
 
 impl Model for Testbed {
-    fn initialize(&mut self, _start_time: f64, _log: &mut Log<'_>) -> Result<(), Refusal> {
+    fn initialize(&mut self, _start_time: f64, log: &mut Log<'_>) -> Result<(), Refusal> {
         if ![TORQUE, POSITION_SERVO].contains(&self.mode) {
             return Err(Refusal(format!(
                 "drive.mode = {}: expected {TORQUE} (torque) or {POSITION_SERVO} (position_servo)",
@@ -17,6 +21,18 @@ impl Model for Testbed {
         in_range(self).map_err(Refusal::new)?;
         self.plant = plant::Testbed::new(self.parameters, self.start.q, self.start.dq)
             .map_err(Refusal::new)?;
+        let (wall, M) = (&self.parameters.wall, self.parameters.M);
+        let longest = wall.longest_substep(M, REBOUND_LOST);
+        if wall.q < Wall::NONE && self.substep > longest {
+            log.warning(format_args!(
+                "substep = {:?} s is too long for wall.k = {:?} N/m: the mass rebounds {:.1} percent too slowly, expected at most \
+                 {longest:.2e} s for {:.0} percent",
+                self.substep,
+                wall.k,
+                100.0 * wall.rebound_lost(M, self.substep),
+                100.0 * REBOUND_LOST
+            ));
+        }
         self.show(0.0);
         Ok(())
     }

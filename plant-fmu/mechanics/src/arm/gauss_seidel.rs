@@ -2,10 +2,10 @@
 //!
 //! The slow and simple way to the same solution: the solver's last resort, and its oracle in the tests.
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
 
+use super::disc::Slip;
 use super::problem::{FACINGS, Path, Problem, Solution};
-use super::quotient::quotient_if;
 
 /// Sweeps after which the solver takes what there is.
 pub const SWEEPS: u32 = 300;
@@ -17,12 +17,13 @@ pub fn solve(problem: &Problem, sweeps: u32) -> Solution {
     let inverse = problem.A.try_inverse().unwrap_or_else(Matrix3::zeros);
     let J = &problem.J;
     let spread = inverse * J.transpose();
-    let mobility = (J * spread).diagonal();
+    let S = J * spread;
+    let mobility = S.diagonal();
 
     let mut v = inverse * problem.b;
     let mut joint = Vector3::<f64>::zeros();
     let mut normal = [0.0; 2];
-    let mut tangent = Vector3::<f64>::zeros();
+    let mut tangent = [Vector3::<f64>::zeros(); 2];
     let mut count = 0;
     while count < sweeps {
         count += 1;
@@ -31,7 +32,7 @@ pub fn solve(problem: &Problem, sweeps: u32) -> Solution {
             let law = &problem.joints[i];
             let own = inverse[(i, i)];
             let without = v[i] - own * joint[i];
-            let slid = (-without / own).max(-law.limit).min(law.limit);
+            let slid = law.friction(-without / own);
             let moved = (without + own * slid).max(law.low).min(law.high);
             let next = if moved == without + own * slid {
                 slid
@@ -58,17 +59,23 @@ pub fn solve(problem: &Problem, sweeps: u32) -> Solution {
             change = change.max(difference.abs());
             largest = largest.max(next);
         }
-        let grip = problem.grip(&normal);
-        for axis in 0..3 {
-            let w = J.row(axis).transpose().dot(&v);
-            let moves = mobility[axis] > 0.0;
-            let way = quotient_if(moves, w, mobility[axis]);
-            let wish = if moves { tangent[axis] - way } else { 0.0 };
-            let next = wish.max(-grip[axis]).min(grip[axis]);
-            let difference = next - tangent[axis];
-            tangent[axis] = next;
-            v += spread.column(axis) * difference;
-            change = change.max(difference.abs());
+        for (k, facing) in FACINGS.iter().enumerate() {
+            let (contact, [i, j]) = (&problem.contacts[k], facing.plane());
+            let w = J * (v - spread * tangent[k]);
+            let t = Slip {
+                S: Matrix2::new(S[(i, i)], S[(i, j)], S[(i, j)], S[(j, j)]),
+                w: Vector2::new(w[i], w[j]),
+                n: normal[k],
+                c: Vector2::zeros(), // the normal has its own turn
+                mu: contact.mu,
+            }
+            .friction();
+            let mut next = Vector3::zeros();
+            (next[i], next[j]) = (t.x, t.y);
+            let difference = next - tangent[k];
+            tangent[k] = next;
+            v += spread * difference;
+            change = change.max(difference.amax());
         }
         if change <= CHANGE * largest {
             break;
@@ -78,7 +85,7 @@ pub fn solve(problem: &Problem, sweeps: u32) -> Solution {
         v,
         joint,
         normal,
-        tangent,
+        tangent: tangent[0] + tangent[1],
         path: Path::Swept(count),
     }
 }

@@ -1,9 +1,9 @@
 //! A guess of which forces hold, slide and push.
 
 use super::linear::Linear;
-use super::problem::{FACINGS, Problem, Solution};
+use super::problem::{Problem, Solution};
 
-/// What a joint does, or the pad along one axis, as far as dry friction and stops are concerned.
+/// What a joint does, as far as dry friction and stops are concerned.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Motion {
@@ -14,13 +14,14 @@ pub enum Motion {
     Forward,
     /// Slides in the negative direction, friction at its limit.
     Backward,
-    /// Joint: arrives at the upper stop.
+    /// Arrives at the upper stop.
     High,
-    /// Joint: arrives at the lower stop.
+    /// Arrives at the lower stop.
     Low,
 }
 
-/// Which forces hold, slide and push. Kept from one substep to the next.
+/// Which joints hold and slide, and which surfaces push. Kept from one substep to the next. Whether a surface holds the
+/// pad or lets it slide follows from these.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Guess {
@@ -28,19 +29,6 @@ pub struct Guess {
     pub joint: [Motion; 3],
     /// Which surfaces push: table, wall.
     pub pushes: [bool; 2],
-    /// The axes of the pad, while a surface pushes.
-    pub pad: [Motion; 3],
-}
-
-impl Motion {
-    /// Sense of sliding: 1, −1, or 0 where friction is not at its limit.
-    pub fn sense(self) -> f64 {
-        match self {
-            Self::Forward => 1.0,
-            Self::Backward => -1.0,
-            Self::Held | Self::High | Self::Low => 0.0,
-        }
-    }
 }
 
 impl Guess {
@@ -49,14 +37,8 @@ impl Guess {
         self.pushes[0] || self.pushes[1]
     }
 
-    /// Does a surface that pushes rub along this axis of the pad?
-    pub(crate) fn rubs(&self, axis: usize) -> bool {
-        (self.pushes[0] && FACINGS[0].axis() != axis)
-            || (self.pushes[1] && FACINGS[1].axis() != axis)
-    }
-
-    /// Takes the guess for granted and solves what remains: sliding forces are at their limits, held joints and axes
-    /// have a velocity instead of an equation, surfaces that push are springs.
+    /// Takes the guess for granted and solves what remains: sliding joints have friction at its limit, held ones a velocity
+    /// instead of an equation, surfaces that push are springs with friction.
     pub fn solve(&self, problem: &Problem) -> Solution {
         Linear::of(self, problem).solve(&problem.b)
     }

@@ -47,6 +47,11 @@ impl Lengths {
             z: self.pad_z,
         }
     }
+
+    /// Farthest from the yaw axis that the pad can come (m).
+    pub fn reach(&self) -> f64 {
+        self.A_1 + self.L_1 + libm::hypot(self.pad_x, self.pad_z)
+    }
 }
 
 /// A point of link 3 in its frame: origin on the elbow's axis, x along the link, z up when the link is level.

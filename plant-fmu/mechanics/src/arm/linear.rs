@@ -4,14 +4,10 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::guess::{Guess, Motion};
 use super::problem::{FACINGS, Path, Problem, Solution};
-use super::quotient::quotient_if;
+use super::rubbing::Rubbing;
 
-/// A tangential force is not needed where other forces hold its axis already: where its pivot has shrunk to this part
-/// of the largest diagonal element. Rounding leaves 1e-15; real geometry stays far above.
-const REDUNDANT: f64 = 1e-11;
-
-/// The linear equation that a guess leaves of a problem: K v = r in the joints that slide. All of it but `b` of the problem,
-/// so that it is put together and inverted once for several b. Inlined, as most substeps solve for one b only: else its
+/// The linear equation that a guess leaves of a problem: K v = r in the joints that slide, and in it friction on the
+/// surfaces, which is not linear. All of it but `b` of the problem, so that it is put together and inverted once for several b. Inlined, as most substeps solve for one b only: else its
 /// matrices go through memory (700 of 22,000 instructions a millisecond).
 pub(crate) struct Linear<'a> {
     guess: &'a Guess,
@@ -27,8 +23,6 @@ pub(crate) struct Linear<'a> {
     slide: Vector3<f64>,
     /// Inverse of K without the joints that are held.
     inverse: Matrix3<f64>,
-    /// Axes of the pad that are held.
-    axes: [bool; 3],
     /// Jacobian of the pad in the joints that slide.
     J_free: Matrix3<f64>,
 }
@@ -39,20 +33,15 @@ impl<'a> Linear<'a> {
         let Problem { A, joints, J, .. } = problem;
         let mut K = *A;
 
-        // n = push − κ dt d·v acts along u: the normal, and the friction of the axes that slide with it.
+        // n = push − κ dt d·w acts along the normal d.
         let mut pushes = [Vector3::zeros(); 2];
         for (k, facing) in FACINGS.iter().enumerate() {
             if guess.pushes[k] {
                 let contact = &problem.contacts[k];
-                let mut u = Vector3::zeros();
-                for axis in 0..3 {
-                    u[axis] = -guess.pad[axis].sense() * contact.mu;
-                }
-                u[facing.axis()] = facing.sign();
-                let u = J.tr_mul(&u);
-                let d = J.row(facing.axis()) * (facing.sign() * contact.kappa_dt);
-                K += u * d;
-                pushes[k] = u * contact.push;
+                let d = J.row(facing.axis());
+                let along = d.transpose();
+                K += along * (d * contact.kappa_dt);
+                pushes[k] = along * (facing.sign() * contact.push);
             }
         }
 
@@ -64,9 +53,13 @@ impl<'a> Linear<'a> {
                 Motion::Held => {}
                 Motion::High => at[i] = joints[i].high,
                 Motion::Low => at[i] = joints[i].low,
-                Motion::Forward | Motion::Backward => {
+                Motion::Forward => {
                     held[i] = false;
-                    slide[i] = -guess.joint[i].sense() * joints[i].limit;
+                    slide[i] = -joints[i].against[0];
+                }
+                Motion::Backward => {
+                    held[i] = false;
+                    slide[i] = joints[i].against[1];
                 }
             }
         }
@@ -91,7 +84,6 @@ impl<'a> Linear<'a> {
             slide,
             // Singular only for parameters at which Coulomb friction itself has no solution: then the check fails.
             inverse: K_free.try_inverse().unwrap_or_else(Matrix3::zeros),
-            axes: [0, 1, 2].map(|axis| guess.pad[axis] == Motion::Held && guess.rubs(axis)),
             J_free,
         }
     }
@@ -108,25 +100,23 @@ impl<'a> Linear<'a> {
             ..
         } = self;
         let r = self.r(b);
-        let (v, held_by) = self.velocity(&r);
-
+        let mut v = self.frictionless(&r);
         let mut normal = [0.0; 2];
-        let mut tangent = held_by;
+        let mut tangent = Vector3::zeros();
         let mut back = Vector3::zeros();
         if guess.touches() {
-            if self.axes.contains(&true) {
-                back = problem.J.tr_mul(&held_by);
-            }
+            let spread = self.spread();
+            let rubbing = self.rubbing(&spread);
+            let friction = rubbing.friction(&(problem.J * v));
+            v += spread * (friction[0] + friction[1]);
             let w = problem.J * v;
             for (k, facing) in FACINGS.iter().enumerate() {
                 if guess.pushes[k] {
                     normal[k] = problem.contacts[k].pressure(*facing, &w);
+                    tangent += problem.contacts[k].within(normal[k], &friction[k]);
                 }
             }
-            let grip = problem.grip(&normal);
-            for axis in 0..3 {
-                tangent[axis] -= guess.pad[axis].sense() * grip[axis];
-            }
+            back = problem.J.tr_mul(&tangent);
         }
         let needed = K * v - r - back;
         let joint = Vector3::from_fn(|i, _| if held[i] { needed[i] } else { slide[i] });
@@ -139,9 +129,32 @@ impl<'a> Linear<'a> {
         }
     }
 
-    /// Velocity of the pad (m/s) for `b` (N·m·s).
-    pub(crate) fn w(&self, b: &Vector3<f64>) -> Vector3<f64> {
-        self.problem.J * self.velocity(&self.r(b)).0
+    /// Mobility of the pad (1/kg) at the solution for `b` (N·m·s): ∂w/∂Λ for an impulse Λ on it.
+    pub(crate) fn mobility(&self, b: &Vector3<f64>) -> Matrix3<f64> {
+        let spread = self.spread();
+        let rubbing = self.rubbing(&spread);
+        if !self.guess.touches() {
+            return rubbing.S;
+        }
+        let w = self.problem.J * self.frictionless(&self.r(b));
+        let friction = rubbing.friction(&w);
+        let slipping = w + rubbing.S * (friction[0] + friction[1]);
+        rubbing.mobility(&slipping, &friction)
+    }
+
+    /// Velocity of the joints per impulse on the pad.
+    #[inline(always)]
+    fn spread(&self) -> Matrix3<f64> {
+        self.inverse * self.J_free.transpose()
+    }
+
+    #[inline(always)]
+    fn rubbing(&self, spread: &Matrix3<f64>) -> Rubbing<'a> {
+        Rubbing {
+            problem: self.problem,
+            pushes: self.guess.pushes,
+            S: self.J_free * spread,
+        }
     }
 
     /// `b` with the impulses of the surfaces (N·m·s).
@@ -156,56 +169,15 @@ impl<'a> Linear<'a> {
         r
     }
 
-    /// Velocity of the joints (rad/s), and the impulse of the axes that are held on the pad (N·s).
+    /// Velocity of the joints (rad/s) without friction on the surfaces.
     #[inline(always)]
-    fn velocity(&self, r: &Vector3<f64>) -> (Vector3<f64>, Vector3<f64>) {
+    fn frictionless(&self, r: &Vector3<f64>) -> Vector3<f64> {
         let mut r_free = r + self.slide - self.K * self.at;
         for i in 0..3 {
             if self.held[i] {
                 r_free[i] = self.at[i];
             }
         }
-        let mut v = self.inverse * r_free;
-        let mut tangent = Vector3::zeros();
-        if self.axes.contains(&true) {
-            let spread = self.inverse * self.J_free.transpose();
-            tangent = hold(self.J_free * spread, -(self.problem.J * v), self.axes);
-            v += spread * tangent;
-        }
-        (v, tangent)
+        self.inverse * r_free
     }
-}
-
-/// Impulses t along the chosen `axes` with S t = y there, by elimination on the largest remaining pivot. Axes that the
-/// others hold already get none.
-fn hold(mut S: Matrix3<f64>, mut y: Vector3<f64>, axes: [bool; 3]) -> Vector3<f64> {
-    let least = REDUNDANT * S.diagonal().amax();
-    let mut t = Vector3::zeros();
-    let mut used = [false; 3];
-    for _ in 0..3 {
-        let mut pivot = 0;
-        let mut size = 0.0;
-        for axis in 0..3 {
-            if axes[axis] && !used[axis] && S[(axis, axis)].abs() > size {
-                (pivot, size) = (axis, S[(axis, axis)].abs());
-            }
-        }
-        if size <= least {
-            break;
-        }
-        used[pivot] = true;
-        for row in 0..3 {
-            if row != pivot && axes[row] {
-                let factor = S[(row, pivot)] / S[(pivot, pivot)];
-                for column in 0..3 {
-                    S[(row, column)] -= factor * S[(pivot, column)];
-                }
-                y[row] -= factor * y[pivot];
-            }
-        }
-    }
-    for axis in 0..3 {
-        t[axis] = quotient_if(used[axis], y[axis], S[(axis, axis)]);
-    }
-    t
 }

@@ -28,17 +28,19 @@
 //! | p, J | dp = J dq, of handle (h) and pad (p) | m, m/rad | [`kinematics::Point`] |
 //! | τ | dτ/dt = ω (τ_a − τ) | N·m | [`drive::Drive`] |
 //! | τ_f | −τ_f ∈ F(dq) Sgn(dq) + b dq, Sgn(0) = \[−1, 1\] | N·m | [`stribeck::Stribeck`] |
+//! | loss | grows with the torque that a gear carries, F + loss | N·m | [`gear_loss::GearLoss`] |
 //! | F | F_c + (F_s − F_c) exp(−(dq/v_s)²) | N·m | [`stribeck::Stribeck::limit`] |
-//! | f_e | normal: 0 ≤ λ ⟂ s − pen ≥ 0, λ = k s + c ds/dt; tangential: −f_t ∈ μ λ Sgn(w_t) | N | [`surface::Surface`] |
+//! | f_e | normal: 0 ≤ λ ⟂ s − pen ≥ 0, λ = k s + c ds/dt; tangential: −f_t ∈ μ λ Sgn(w_t), Sgn(0) a disc | N | [`surface::Surface`] |
 //! | v | the velocity at the end of a substep and all set-valued forces, together | rad/s | [`problem::Problem`] |
-//! | tension | m (a_z − g_z) − f_e,z | N | [`payload::tension`] |
+//! | hold | m (a − g) − f_e: tension, shear | N | [`payload::Hold`] |
 //! | residual | Σ work + payload − Σ loss − (E − E(0)), first order in dt | J | [`energy::Energy::residual`] |
 //!
 //! # A substep
 //!
 //! 1. The drive's torque and the rigid body at q, with the payload if one is held: [`drive`], [`rigid_body`].
 //! 2. The implicit velocity problem: friction of three joints, stops, two surfaces, friction on them: [`problem`].
-//! 3. Its solution, exact up to rounding: [`guess`] and [`solver`]; [`gauss_seidel`] is the last resort.
+//! 3. Its solution, exact up to rounding: [`guess`] and [`solver`], with friction on a surface projected on its [`disc`];
+//!    [`gauss_seidel`] is the last resort.
 //! 4. q⁺ = q + dt v, the surfaces' deflections, the energy: [`substep`], [`flow`], [`energy`].
 //! 5. The payload is gripped, released or lost: [`payload`].
 //!
@@ -46,10 +48,12 @@
 //! and lift at 1e-4 s.
 
 mod check;
+pub mod disc;
 pub mod drive;
 pub mod energy;
 pub mod flow;
 pub mod gauss_seidel;
+pub mod gear_loss;
 pub mod guess;
 pub mod kinematics;
 pub(crate) mod linear;
@@ -60,6 +64,7 @@ pub mod problem;
 mod quotient;
 mod revision;
 pub mod rigid_body;
+mod rubbing;
 pub mod solver;
 pub mod state;
 pub mod stribeck;

@@ -1,8 +1,10 @@
 //! What the arm is made of, and where it starts: one row each, numbered from A1 on. A new row takes the next number that is
-//! free in both FMUs of the arm: 49 (ExoskeletonArm counts from 36 and ends at 84, ExoskeletonArms from 49 and at 89).
+//! free in both FMUs of the arm: 54, and not 62 (ExoskeletonArm counts from 36 and ends at 88, ExoskeletonArms from 49; its
+//! outputs stand at 101, 102 and 111).
 
 use declaration::{Rows, Start};
 
+use super::gear_loss::GearLoss;
 use super::kinematics::Lengths;
 use super::payload::Vacuum;
 use super::rigid_body::Masses;
@@ -35,6 +37,9 @@ pub struct Parameters {
     #[part(each)]
     #[start([friction(12.0, 16.0, 8.0), friction(14.0, 18.0, 15.0), friction(12.0, 16.0, 8.0)])]
     pub friction: [Stribeck; 3],
+    /// Loss of each gear.
+    #[part(each)]
+    pub gear_loss: [GearLoss; 3],
     /// Stops of each joint.
     #[part(each)]
     #[start([stops(-1.2, 1.2), stops(-2.0, 1.0), stops(0.10, 2.60)])]

@@ -7,9 +7,11 @@ use super::energy::{Energy, Ledger, Stored};
 use super::flow::Flow;
 use super::guess::Guess;
 use super::parameters::{Parameters, Start};
+use super::problem::FACINGS;
 use super::rigid_body::RigidBody;
 use super::solver;
 use super::state::{Configuration, Inputs, Place, Shown, State};
+use super::surface::TooStiff;
 use crate::ParameterError;
 
 /// The 3-DoF geared exoskeleton arm with its payload, table and wall.
@@ -24,6 +26,8 @@ pub struct Arm {
     pub(crate) guess: Guess,
     pub(crate) shown: Shown,
     pub(super) ledger: Ledger,
+    /// A payload hangs from the start on, and the vacuum has not been on yet.
+    pub(super) kept: bool,
 }
 
 impl Default for Arm {
@@ -51,7 +55,10 @@ impl Arm {
             s: [0.0; 2],
             attached: start.attached && parameters.payload_m > 0.0,
         };
-        Self::of(parameters, state)
+        Self {
+            kept: state.attached,
+            ..Self::of(parameters, state)
+        }
     }
 
     /// The arm in `state`, where its energy balance begins; nothing is checked.
@@ -64,6 +71,7 @@ impl Arm {
             guess: Guess::default(),
             shown: Shown::default(),
             ledger: Ledger::open(&Stored::of(&parameters, &state, &configuration.body)),
+            kept: false,
         }
     }
 
@@ -81,10 +89,11 @@ impl Arm {
         let equation = self.equation(drive, inputs, dt);
         let solution = solver::solve(&equation.problem, &mut self.guess);
         let moved = self.take(&equation, &solution);
+        let on = self.sucks(inputs.vacuum);
         let event = self.parameters.vacuum.event(
             self.state.attached,
-            inputs.vacuum,
-            self.shown.tension,
+            on,
+            self.parameters.vacuum.breaks(&self.shown.hold),
             moved.pressure,
         );
         self.finish(moved.flow, event)
@@ -152,7 +161,45 @@ impl Arm {
 
     /// Upward pull of the pad on the payload, mean of the last substep (N); 0 without payload.
     pub fn tension(&self) -> f64 {
-        self.shown.tension
+        self.shown.hold.tension()
+    }
+
+    /// Level force of the pad on the payload, its size, mean of the last substep (N); 0 without payload.
+    pub fn shear(&self) -> f64 {
+        self.shown.hold.shear()
+    }
+
+    /// Whether a payload hangs from the start on and waits for the vacuum to be on for the first time.
+    pub fn kept(&self) -> bool {
+        self.kept
+    }
+
+    /// The first surface in reach from which the pad, as heavy as it is here, rebounds with more than the share `lost` of its
+    /// speed missing if a substep is `dt` (s).
+    pub fn too_stiff(&self, dt: f64, lost: f64) -> Option<TooStiff> {
+        let Configuration { place, body } = &self.configuration;
+        let inverse = body.M.try_inverse()?;
+        let mobility = (place.pad.J * inverse * place.pad.J.transpose()).diagonal();
+        let Parameters { lengths, .. } = &self.parameters;
+        let reach = lengths.reach();
+        let surfaces = self.parameters.surfaces();
+        ["table.k", "wall.k"]
+            .into_iter()
+            .enumerate()
+            .find_map(|(i, name)| {
+                let (surface, moves) = (&surfaces[i], mobility[FACINGS[i].axis()]);
+                if surface.position.abs() > reach || moves <= 0.0 {
+                    return None;
+                }
+                let (wall, m) = (surface.wall(), 1.0 / moves);
+                let longest = wall.longest_substep(m, lost);
+                (dt > longest).then(|| TooStiff {
+                    name,
+                    k: surface.k,
+                    lost: wall.rebound_lost(m, dt),
+                    longest,
+                })
+            })
     }
 
     /// What the last substep showed.
@@ -176,6 +223,7 @@ struct Saved {
     guess: Guess,
     shown: Shown,
     ledger: Ledger,
+    kept: bool,
 }
 
 #[cfg(feature = "serde")]
@@ -187,6 +235,7 @@ impl From<Arm> for Saved {
             guess: arm.guess,
             shown: arm.shown,
             ledger: arm.ledger,
+            kept: arm.kept,
         }
     }
 }
@@ -198,6 +247,7 @@ impl From<Saved> for Arm {
             guess: saved.guess,
             shown: saved.shown,
             ledger: saved.ledger,
+            kept: saved.kept,
             ..Self::of(saved.parameters, saved.state)
         }
     }

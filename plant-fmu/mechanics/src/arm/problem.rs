@@ -11,13 +11,12 @@ pub const FACINGS: [Facing; 2] = [Facing::Up, Facing::Back];
 ///
 /// ```text
 /// A v = b + λ + Jᵀ (t + Σ d n)                                              A = M + dt B
-/// λᵢ  = −limit Sgn(vᵢ) + stop,   low ≤ vᵢ ≤ high,  stop ≤ 0 only at high, ≥ 0 only at low    joint i
+/// λᵢ  = −against Sgn(vᵢ) + stop, low ≤ vᵢ ≤ high,  stop ≤ 0 only at high, ≥ 0 only at low    joint i
 /// n   = max(0, push − κ dt d·w)                                             normal of a surface, w = J v
-/// tₐ ∈ −(Σ μ n) Sgn(wₐ)                                                     axis a, over surfaces tangential to it
+/// t   = Σ tₖ,   −tₖ ∈ μ n Sgn(wₖ),   Sgn(w) = w/|w|, Sgn(0) = unit disc     friction of a surface, wₖ = w in its plane
 /// ```
 ///
-/// Impulses in N·m·s at the joints, in N·s at the pad (base frame). The frictions of table and wall along y oppose the
-/// same velocity and are one force. A is positive definite, so v is unique for given limits; where more forces hold
+/// Impulses in N·m·s at the joints, in N·s at the pad (base frame). A is positive definite, so v is unique for given limits; where more forces hold
 /// than are needed, how they share the load is not determined by any equation, and v does not depend on it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Problem {
@@ -36,8 +35,8 @@ pub struct Problem {
 /// Set-valued forces on a joint.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Joint {
-    /// Largest impulse of dry friction (N·m·s).
-    pub limit: f64,
+    /// Largest impulse of dry friction against the positive and against the negative direction (N·m·s).
+    pub against: [f64; 2],
     /// Velocity that reaches the lower stop within the substep (rad/s), ≤ 0.
     pub low: f64,
     /// Velocity that reaches the upper stop within the substep (rad/s), ≥ 0.
@@ -64,7 +63,7 @@ pub struct Solution {
     pub joint: Vector3<f64>,
     /// Impulse of each surface along its normal, on the pad (N·s), ≥ 0.
     pub normal: [f64; 2],
-    /// Impulse of tangential friction on the pad, base frame (N·s).
+    /// Impulse of friction on the pad, of both surfaces together; base frame (N·s).
     pub tangent: Vector3<f64>,
     /// How it was found.
     pub path: Path,
@@ -84,19 +83,6 @@ pub enum Path {
 }
 
 impl Problem {
-    /// Largest impulse of friction along each axis of the pad (N·s), from the impulses of the normals.
-    pub fn grip(&self, normal: &[f64; 2]) -> Vector3<f64> {
-        let mut grip = Vector3::zeros();
-        for (k, facing) in FACINGS.iter().enumerate() {
-            for axis in 0..3 {
-                if axis != facing.axis() {
-                    grip[axis] += self.contacts[k].mu * normal[k];
-                }
-            }
-        }
-        grip
-    }
-
     /// Impulse of the surfaces on the pad, base frame (N·s): t + Σ d n.
     pub fn on_pad(&self, normal: &[f64; 2], tangent: &Vector3<f64>) -> Vector3<f64> {
         let mut impulse = *tangent;
@@ -111,7 +97,7 @@ impl Problem {
     pub(crate) fn rounding(&self) -> f64 {
         let mut scale = self.b.amax();
         for joint in &self.joints {
-            scale = scale.max(joint.limit);
+            scale = scale.max(joint.against[0]).max(joint.against[1]);
         }
         for contact in &self.contacts {
             scale = scale.max(contact.push);
@@ -125,22 +111,33 @@ impl Contact {
     pub fn pressure(&self, facing: Facing, w: &Vector3<f64>) -> f64 {
         self.push - self.kappa_dt * facing.sign() * w[facing.axis()]
     }
+
+    /// `friction` (N·s), shortened to what the normal impulse `n` (N·s) allows.
+    #[inline]
+    pub(crate) fn within(&self, n: f64, friction: &Vector3<f64>) -> Vector3<f64> {
+        let (most, square) = (self.mu * n.max(0.0), friction.norm_squared());
+        if square > most * most {
+            friction * (most / libm::sqrt(square))
+        } else {
+            *friction
+        }
+    }
 }
 
 impl Joint {
-    /// Least impulse of a joint that friction and stops keep at rest: −limit, or any where it leans on the upper stop.
+    /// Least impulse of a joint that friction and stops keep at rest: friction's, or any where it leans on the upper stop.
     pub(crate) fn least(&self) -> f64 {
         if self.high > 0.0 {
-            -self.limit
+            -self.against[0]
         } else {
             f64::NEG_INFINITY
         }
     }
 
-    /// Largest impulse of a joint that friction and stops keep at rest: limit, or any where it leans on the lower stop.
+    /// Largest impulse of a joint that friction and stops keep at rest: friction's, or any where it leans on the lower stop.
     pub(crate) fn most(&self) -> f64 {
         if self.low < 0.0 {
-            self.limit
+            self.against[1]
         } else {
             f64::INFINITY
         }
@@ -148,6 +145,6 @@ impl Joint {
 
     /// The share of friction in the impulse `joint` (N·m·s); the rest is the stop's.
     pub fn friction(&self, joint: f64) -> f64 {
-        joint.max(-self.limit).min(self.limit)
+        joint.max(-self.against[0]).min(self.against[1])
     }
 }

@@ -23,11 +23,6 @@ impl<'a> Check<'a> {
         }
     }
 
-    /// Velocity of the pad (m/s).
-    fn w(&self) -> f64 {
-        self.problem.J.amax() * (self.v[0] + self.v[1] + self.v[2])
-    }
-
     /// Revises `guess` where `solution`, found from it, contradicts it: everywhere, or where it does first. Returns
     /// whether it did.
     pub(crate) fn revise(&self, solution: &Solution, guess: &mut Guess, singly: bool) -> bool {
@@ -39,31 +34,11 @@ impl<'a> Check<'a> {
                 guess.pushes[k] = false;
                 revised = true;
             } else if !guess.pushes[k] && n > self.impulse {
-                let rubbed = [0, 1, 2].map(|axis| guess.rubs(axis));
                 guess.pushes[k] = true;
-                for axis in 0..3 {
-                    if !rubbed[axis] && guess.rubs(axis) {
-                        guess.pad[axis] = sliding(w[axis], self.w());
-                    }
-                }
                 revised = true;
             }
             if singly && revised {
                 return true;
-            }
-        }
-        if guess.touches() {
-            let (grip, rounding) = (self.problem.grip(&solution.normal), self.w());
-            for axis in 0..3 {
-                if guess.rubs(axis) {
-                    let (motion, t) = (guess.pad[axis], solution.tangent[axis]);
-                    let next = self.pad(motion, w[axis], rounding, t, grip[axis]);
-                    revised |= next != motion;
-                    guess.pad[axis] = next;
-                    if singly && revised {
-                        return true;
-                    }
-                }
             }
         }
         for i in 0..3 {
@@ -77,19 +52,6 @@ impl<'a> Check<'a> {
         revised
     }
 
-    /// The motion along an axis of the pad that follows from its velocity `w`, which errs by `rounding`, and friction `t`
-    /// under `grip`.
-    fn pad(&self, motion: Motion, w: f64, rounding: f64, t: f64, grip: f64) -> Motion {
-        match motion {
-            Motion::Forward if w < -rounding => Motion::Held,
-            Motion::Backward if w > rounding => Motion::Held,
-            Motion::Forward | Motion::Backward => motion,
-            // Friction at its limit slides against its force; an axis that no force could hold slides as it moves.
-            _ if t.abs() > grip.max(0.0) + self.impulse => sliding(-t, 0.0),
-            _ => sliding(w, rounding),
-        }
-    }
-
     /// The motion of joint `i` that follows from its velocity and impulse.
     fn joint(&self, i: usize, motion: Motion, solution: &Solution) -> Motion {
         let joint = &self.problem.joints[i];
@@ -101,8 +63,8 @@ impl<'a> Check<'a> {
             Motion::Backward if v < joint.low - self.v[i] => beyond(joint.low, Motion::Low),
             Motion::Held if impulse < joint.least() - self.impulse => Motion::Forward,
             Motion::Held if impulse > joint.most() + self.impulse => Motion::Backward,
-            Motion::High if impulse > -joint.limit + self.impulse => Motion::Forward,
-            Motion::Low if impulse < joint.limit - self.impulse => Motion::Backward,
+            Motion::High if impulse > -joint.against[0] + self.impulse => Motion::Forward,
+            Motion::Low if impulse < joint.against[1] - self.impulse => Motion::Backward,
             _ => motion,
         }
     }
@@ -110,15 +72,8 @@ impl<'a> Check<'a> {
     /// The guess that a solution of another method amounts to.
     pub(crate) fn seen(&self, solution: &Solution) -> Guess {
         let mut guess = Guess::default();
-        let w = self.problem.J * solution.v;
         for k in 0..FACINGS.len() {
             guess.pushes[k] = solution.normal[k] > self.impulse;
-        }
-        let grip = self.problem.grip(&solution.normal);
-        for axis in 0..3 {
-            if solution.tangent[axis].abs() >= grip[axis] {
-                guess.pad[axis] = sliding(w[axis], self.w());
-            }
         }
         for i in 0..3 {
             let joint = &self.problem.joints[i];
@@ -127,7 +82,7 @@ impl<'a> Check<'a> {
                 Motion::High
             } else if v <= joint.low && joint.low < 0.0 {
                 Motion::Low
-            } else if impulse.abs() >= joint.limit {
+            } else if impulse <= -joint.against[0] || impulse >= joint.against[1] {
                 sliding(v, self.v[i])
             } else {
                 Motion::Held

@@ -37,7 +37,8 @@ pub fn solve(problem: &Problem, guess: &mut Guess) -> Solution {
     settled(problem, solution, guess, swept.path)
 }
 
-/// Removes what rounding left: no sliding against its sense, no force beyond what its law allows.
+/// Removes what rounding left: no sliding against its sense, no force beyond what its law allows; friction on the surfaces
+/// keeps to it already.
 fn settled(problem: &Problem, mut solution: Solution, guess: &Guess, path: Path) -> Solution {
     for (i, joint) in problem.joints.iter().enumerate() {
         let (v, impulse) = (&mut solution.v[i], &mut solution.joint[i]);
@@ -45,18 +46,13 @@ fn settled(problem: &Problem, mut solution: Solution, guess: &Guess, path: Path)
             Motion::Forward => *v = v.max(0.0).min(joint.high),
             Motion::Backward => *v = v.min(0.0).max(joint.low),
             Motion::Held => *impulse = impulse.max(joint.least()).min(joint.most()),
-            Motion::High => *impulse = impulse.min(-joint.limit),
-            Motion::Low => *impulse = impulse.max(joint.limit),
+            Motion::High => *impulse = impulse.min(-joint.against[0]),
+            Motion::Low => *impulse = impulse.max(joint.against[1]),
         }
     }
     if guess.touches() {
         for n in &mut solution.normal {
             *n = n.max(0.0);
-        }
-        let grip = problem.grip(&solution.normal);
-        for axis in 0..3 {
-            let t = &mut solution.tangent[axis];
-            *t = t.max(-grip[axis]).min(grip[axis]);
         }
     }
     Solution { path, ..solution }

@@ -5,6 +5,7 @@ use nalgebra::Vector3;
 
 use super::kinematics::{Point, Pose};
 use super::parameters::Parameters;
+use super::payload::Hold;
 use super::problem::Path;
 use super::rigid_body::RigidBody;
 
@@ -21,7 +22,8 @@ pub struct Inputs {
     /// force on the arm at the pad that no sensor sees, base frame
     #[input(2, unit = NEWTON)]
     pub f_d: [f64; 3],
-    /// whether the cup at the pad sucks: it grips what the pad presses on, and lets go when this is false
+    /// whether the cup at the pad sucks: it grips what the pad presses on, and lets go when this is false; a payload that
+    /// hangs from the start on (payload.attached) stays until this has been true
     #[input(3)]
     pub vacuum: bool,
 }
@@ -50,8 +52,8 @@ pub struct Shown {
     pub f_e: Vector3<f64>,
     /// Torque of dry and viscous friction on the joints (N·m).
     pub tau_f: Vector3<f64>,
-    /// Upward pull of the pad on the payload (N); 0 without.
-    pub tension: f64,
+    /// What the pad holds the payload with; 0 without.
+    pub hold: Hold,
     /// Whether table or wall pushed.
     pub contact: bool,
     /// How the solution was found.

@@ -7,7 +7,7 @@ use super::floored;
 use super::flow::{Flow, Taken};
 use super::kinematics::Pose;
 use super::parameters::Parameters;
-use super::payload;
+use super::payload::Hold;
 use super::plant::Arm;
 use super::problem::{Contact, FACINGS, Joint, Problem, Solution};
 use super::rigid_body::RigidBody;
@@ -67,7 +67,9 @@ pub fn problem(
         A: body.M + Matrix3::from_diagonal(&(parameters.viscous() * dt)),
         b: body.M * dq + torque * dt,
         joints: [0, 1, 2].map(|i| Joint {
-            limit: parameters.friction[i].limit(dq[i]) * dt,
+            against: parameters.gear_loss[i]
+                .against(tau[i])
+                .map(|loss| (parameters.friction[i].limit(dq[i]) + loss) * dt),
             low: ((parameters.stops[i].min - q[i]) / dt).min(0.0),
             high: ((parameters.stops[i].max - q[i]) / dt).max(0.0),
         }),
@@ -159,14 +161,14 @@ impl Arm {
         self.shown = Shown {
             f_e: problem.on_pad(&solution.normal, &solution.tangent) / dt,
             tau_f: friction / dt - state.dq.component_mul(&parameters.viscous()),
-            tension: 0.0,
+            hold: Hold::default(),
             contact: solution.normal[0] > 0.0 || solution.normal[1] > 0.0,
             path: solution.path,
         };
         if state.attached {
             let a = (to.pad.J * state.dq - from.pad.J * before.dq) / dt;
             let (m, gravity) = (parameters.payload_m, &parameters.masses.gravity);
-            self.shown.tension = payload::tension(m, &a, gravity, &self.shown.f_e);
+            self.shown.hold = Hold::of(m, &a, gravity, &self.shown.f_e);
         }
         Moved {
             flow,

@@ -4,13 +4,11 @@ use crate::wall;
 use declaration::{Rows, Start};
 
 /// A compliant plane with dry friction. Along the normal it is a [`Wall`](wall::Wall): pushes only, has a deflection of its
-/// own. Along each tangential axis of the base frame friction opposes the pad's velocity w_t, rigidly:
+/// own. In the plane friction opposes the pad's velocity w_t, rigidly:
 ///
 /// ```text
-/// −f_t ∈ μ λ Sgn(w_t)
+/// −f_t ∈ μ λ Sgn(w_t),   Sgn(w) = w/|w|, Sgn(0) = unit disc
 /// ```
-///
-/// (a box; the combined force of both axes reaches √2 μ λ on a diagonal).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Surface {
     /// Position of the plane (m): z of the table, x of the wall.
@@ -19,7 +17,7 @@ pub struct Surface {
     pub k: f64,
     /// Damping c (N·s/m).
     pub c: f64,
-    /// Coefficient of friction μ per tangential axis.
+    /// Coefficient of friction μ.
     pub mu: f64,
 }
 
@@ -37,7 +35,7 @@ pub struct Table {
     #[parameter(29, name = "table.c", unit = NEWTON_SECOND_PER_METRE, range = 0.0..=1e5, start = 300.0)]
     pub c: f64,
     // More than 1 could jam the arm rigidly (Painlevé), where Coulomb's law has no solution.
-    /// coefficient of friction on the table, for each tangential axis by itself
+    /// coefficient of friction on the table, the same in every direction
     #[parameter(30, name = "table.mu", range = 0.0..=1.0, start = 0.4)]
     pub mu: f64,
 }
@@ -56,7 +54,7 @@ pub struct Wall {
     #[parameter(33, name = "wall.c", unit = NEWTON_SECOND_PER_METRE, range = 0.0..=1e5, start = 300.0)]
     pub c: f64,
     // More than 1 could jam the arm rigidly (Painlevé), where Coulomb's law has no solution.
-    /// coefficient of friction on the wall, for each tangential axis by itself
+    /// coefficient of friction on the wall, the same in every direction
     #[parameter(34, name = "wall.mu", range = 0.0..=1.0, start = 0.4)]
     pub mu: f64,
 }
@@ -103,6 +101,14 @@ impl Facing {
         }
     }
 
+    /// The other two axes: the plane.
+    pub const fn plane(self) -> [usize; 2] {
+        match self {
+            Self::Up => [0, 1],
+            Self::Back => [1, 2],
+        }
+    }
+
     /// Direction of the push along that axis.
     pub const fn sign(self) -> f64 {
         match self {
@@ -110,6 +116,19 @@ impl Facing {
             Self::Back => -1.0,
         }
     }
+}
+
+/// A contact that is too stiff for the substep; of the table or the wall.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TooStiff {
+    /// The stiffness' variable: `table.k`, `wall.k`.
+    pub name: &'static str,
+    /// Its value (N/m).
+    pub k: f64,
+    /// Share of the rebound speed that the substep costs.
+    pub lost: f64,
+    /// Longest substep (s) that costs no more than was asked.
+    pub longest: f64,
 }
 
 impl Surface {

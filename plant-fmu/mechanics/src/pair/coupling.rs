@@ -1,14 +1,14 @@
 //! Finds the impulse between the halves of the payload: two arms' implicit problems and the bond, together.
 //!
 //! Each arm answers an impulse Λ on its pad with a velocity that [`solver::solve`] finds exactly, friction, stops and
-//! surfaces included. This answer is monotone and piecewise linear, so that
+//! surfaces included. This answer is monotone and piecewise smooth, linear unless the pad slides on a surface, so that
 //!
 //! ```text
 //! F(Λ) = Λ − push + κ dt (w_L(Λ) − w_R(Λ)) = 0        push = −dt k g
 //! ```
 //!
 //! has one solution, and Newton's iteration with the derivative of the present piece, I + κ dt (W_L + W_R), ends on it after
-//! as many rounds as pieces are crossed: one, as a rule. A step that goes too far is shortened by the rule of false position.
+//! as many rounds as pieces are crossed: one, as a rule; on a piece that is not straight two or three. A step that goes too far is shortened by the rule of false position.
 
 use nalgebra::{Matrix3, Vector3};
 
@@ -60,14 +60,9 @@ fn pushed(problem: &Problem, on_pad: &Vector3<f64>) -> Vector3<f64> {
     problem.b + problem.J.tr_mul(on_pad)
 }
 
-/// W = ∂w/∂Λ (1/kg) on the piece on which `guess` holds. There w is affine, and differences of it are exact up to rounding.
-fn mobility(problem: &Problem, guess: &Guess) -> Matrix3<f64> {
-    let linear = Linear::of(guess, problem);
-    let still = linear.w(&problem.b);
-    Matrix3::from_columns(&[0, 1, 2].map(|axis| {
-        let unit = Vector3::from_fn(|i, _| f64::from(u8::from(i == axis)));
-        linear.w(&pushed(problem, &unit)) - still
-    }))
+/// W = ∂w/∂Λ (1/kg) where `guess` holds and the impulse `on_pad` (N·s) acts on the pad.
+fn mobility(problem: &Problem, guess: &Guess, on_pad: &Vector3<f64>) -> Matrix3<f64> {
+    Linear::of(guess, problem).mobility(&pushed(problem, on_pad))
 }
 
 impl Coupling {
@@ -82,10 +77,14 @@ impl Coupling {
         let rounding = problems[0].rounding() + problems[1].rounding();
         let mut now = self.tried(problems, *guesses, *last);
         let mut rounds = 0;
-        let mut slope = self.slope(problems, &now.guesses);
+        let mut slope = self.slope(problems, &now);
+        let mut straight = true; // the slope is that of the present piece
         while rounds < ROUNDS {
             if now.F.amax() <= ROUNDINGS * rounding * slope.amax() {
                 break;
+            }
+            if !straight {
+                slope = self.slope(problems, &now);
             }
             // Regular: the identity and, on every piece, what does not pull back.
             let delta = slope.try_inverse().unwrap_or_else(Matrix3::identity) * -now.F;
@@ -100,9 +99,7 @@ impl Coupling {
                 }
                 share *= begin / (begin - end);
             };
-            if next.guesses != now.guesses {
-                slope = self.slope(problems, &next.guesses); // of another piece
-            }
+            straight = next.guesses == now.guesses && !next.guesses.iter().any(Guess::touches);
             now = next;
         }
         *guesses = now.guesses;
@@ -113,10 +110,11 @@ impl Coupling {
         }
     }
 
-    /// ∂F/∂Λ on the piece on which `guesses` hold.
-    fn slope(&self, problems: [&Problem; 2], guesses: &[Guess; 2]) -> Matrix3<f64> {
-        let W = mobility(problems[0], &guesses[0]) + mobility(problems[1], &guesses[1]);
-        Matrix3::identity() + W * self.kappa_dt
+    /// ∂F/∂Λ at what was `tried`.
+    fn slope(&self, problems: [&Problem; 2], tried: &Tried) -> Matrix3<f64> {
+        let W =
+            [0, 1].map(|i| mobility(problems[i], &tried.guesses[i], &(tried.impulse * SIGNS[i])));
+        Matrix3::identity() + (W[0] + W[1]) * self.kappa_dt
     }
 
     fn tried(

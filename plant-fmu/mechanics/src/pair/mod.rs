@@ -17,9 +17,11 @@
 //! ```
 //!
 //! Each arm is a [`crate::arm`], with shoulder, table and wall of its own, and carries half the payload as a point mass at
-//! its pad. The payload is rigid and does not turn: the suction pads have passive wrists. So the pads keep the offset r
-//! that they had at the grip, and what one half does to the other is a force λ on the left pad and −λ on the right one.
-//! The bases stand side by side; where exactly changes r and nothing else.
+//! its pad. The payload is rigid and keeps its direction: the wrists of the suction pads are stiff, and bear whatever moment
+//! that takes. So the pads keep the offset r that they had at the grip, and what one half does to the other is a force λ on
+//! the left pad and −λ on the right one. The bases stand side by side; where exactly changes the pads' distance, and with it
+//! the wrists' moment, and nothing else. That moment acts between the payload and the wrists; the arms' joints do not feel it.
+//! A moment on link 3 that a real stiff wrist would pass on to them is not modelled.
 //!
 //! | symbol | equation | unit | item |
 //! |---|---|---|---|
@@ -27,7 +29,8 @@
 //! | λ | λ = −k g − c dg/dt, both at the end of a substep | N | [`bond::Bond`], [`Pair::lambda`] |
 //! | Λ = dt λ | Λ + κ dt (w_L(Λ) − w_R(Λ)) = −dt k g, κ = k dt + c | N·s | [`coupling`] |
 //! | w_L, w_R | velocity of a pad that the arm's own problem answers to an impulse on it | m/s | [`crate::arm::problem::Problem`] |
-//! | tension | ½ m (a_z − g_z) − f_e,z ∓ λ_z | N | [`Pair::arms`] |
+//! | hold | ½ m (a − g) − f_e ∓ λ: tension, shear | N | [`Pair::arms`] |
+//! | wrist | (p_L − p_R) × λ, about the middle of the payload | N·m | [`Pair::wrist`] |
 //! | residual | Σ of both arms − Δ ½ k g² − losses of the bond | J | [`energy::Balance`] |
 //!
 //! The bond is stiff (1e8 N/m: 1 µm at 100 N) rather than rigid, so that λ is determined also where stiction holds both
@@ -36,7 +39,7 @@
 //! # What happens to the payload
 //!
 //! * It is gripped when both cups suck and both pads press on their table beyond `F_attach`, in the same substep.
-//! * It is released when either cup lets go, and lost when the tension of either exceeds `F_max`: one cup alone would
+//! * It is released when either cup lets go, and lost when the tension of either exceeds `F_max`, or its shear `F_shear`: one cup alone would
 //!   have to hold it by a corner. Both pads are free at once.
 //! * At the grip each half is an inelastic impact, as with one arm; whatever relative velocity of the pads is left, the
 //!   bond damps.

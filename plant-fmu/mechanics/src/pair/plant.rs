@@ -115,7 +115,7 @@ impl Pair {
         let lambda = coupled.impulse / dt;
         if attached {
             for (arm, sign) in self.arms.iter_mut().zip(SIGNS) {
-                arm.shown.tension -= sign * lambda.z;
+                arm.shown.hold.0 -= lambda * sign;
             }
         }
         let event = self.event(inputs, &moved);
@@ -137,12 +137,15 @@ impl Pair {
     }
 
     /// What happens to the payload: gripped by both cups or by none, held by both or by none.
-    fn event(&self, inputs: &[Inputs; 2], moved: &[Moved; 2]) -> Event {
-        let [left, right] = &self.arms;
-        left.parameters().vacuum.event(
-            self.attached(),
-            inputs[0].vacuum && inputs[1].vacuum,
-            left.tension().max(right.tension()),
+    fn event(&mut self, inputs: &[Inputs; 2], moved: &[Moved; 2]) -> Event {
+        let attached = self.attached();
+        let [left, right] = &mut self.arms;
+        let suck = [left.sucks(inputs[0].vacuum), right.sucks(inputs[1].vacuum)];
+        let vacuum = &left.parameters().vacuum;
+        vacuum.event(
+            attached,
+            suck[0] && suck[1],
+            vacuum.breaks(&left.shown.hold) || vacuum.breaks(&right.shown.hold),
             moved[0].pressure.min(moved[1].pressure),
         )
     }
@@ -181,6 +184,17 @@ impl Pair {
     /// Force λ of the right half of the payload on the left one, base frame, mean of the last substep (N); 0 without.
     pub fn lambda(&self) -> Vector3<f64> {
         self.lambda
+    }
+
+    /// Moment of both wrists together on the payload, base frame, mean of the last substep (N·m); 0 without. Each pad holds its
+    /// half with a force, and these forces have a moment about the payload's middle, as they stand `shoulders` apart (m, of the
+    /// left one from the right one). Nothing but wrists can bear it where the payload keeps its direction:
+    ///
+    /// ```text
+    /// wrist = (p_L − p_R) × λ
+    /// ```
+    pub fn wrist(&self, shoulders: &Vector3<f64>) -> Vector3<f64> {
+        (self.offset_now() + shoulders).cross(&self.lambda)
     }
 
     /// Rounds that λ took in the last substep, at most [`super::coupling::ROUNDS`].
