@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure as Canvas
 
-from exo.looks import CYCLE
+from exo.looks import DASHES, GREEN, LABELS, Look
 from exo.metrics.impedance import Impedance, expected_robot, grows, hand_limit_of, impedance_of
 from exo.metrics.loops import desired_mass
 from exo.recording import Recording
@@ -15,8 +15,7 @@ from exo.recording import Recording
 WHO = {"controller": "controller", "plant": "plant", "operator": "operator"}
 #: Frequencies of the closed forms' lines (rad/s).
 LINE = np.geomspace(0.15, 600.0, 200)
-DASHES = ("-", "--", "-.", ":", (0, (5, 1, 1, 1, 1, 1)))
-MARKERS = "osD^v"
+MARKERS = "osD^vP"
 
 
 def _impedance(run: Recording) -> Impedance:
@@ -46,7 +45,8 @@ def draw_impedance(canvas: Canvas, recordings: Mapping[str, Recording]) -> None:
     size, mass, resistance = canvas.subplots(3, 1, sharex=True)
     for i, (case, run) in enumerate(recordings.items()):
         seen = _impedance(run)
-        color, marker = CYCLE[i % len(CYCLE)], MARKERS[i % len(MARKERS)]
+        known, marker = LABELS.get(case, Look(GREEN, 0)), MARKERS[i % len(MARKERS)]
+        color = known.color
         held = _holds(run)
         Z = seen.held if held else seen.robot
         label = f"{case}: robot and hand" if held else case
@@ -59,7 +59,7 @@ def draw_impedance(canvas: Canvas, recordings: Mapping[str, Recording]) -> None:
             resistance.semilogx(seen.omega, seen.robot.real, "x", color=color, markersize=6)
             continue
         closed = expected_robot(run, controller="controller", plant="plant", omega=LINE)
-        look: dict[str, Any] = {"color": color, "linestyle": DASHES[i % len(DASHES)], "linewidth": 1.0}
+        look: dict[str, Any] = {"color": color, "linestyle": DASHES[known.rank], "linewidth": 1.0}
         size.loglog(LINE, np.abs(closed), **look)
         mass.semilogx(LINE, closed.imag / LINE, **look)
         resistance.semilogx(LINE, closed.real, **look)
@@ -104,11 +104,10 @@ def draw_limits(canvas: Canvas, recordings: Mapping[str, Recording]) -> None:
     rows = list(zip(*table.values(), strict=True))
     for i, law in enumerate(dict.fromkeys(table["law"])):
         mine = sorted(row for row in rows if row[0] == law)
-        color, marker = CYCLE[i % len(CYCLE)], MARKERS[i % len(MARKERS)]
+        known, marker = LABELS[law], MARKERS[i % len(MARKERS)]
+        color = known.color
         line = [(b_h, limit) for _, b_h, _, limit, _ in mine if math.isfinite(limit)]
-        axes.semilogy(
-            *np.array(line or [(math.nan, math.nan)]).T, color=color, linestyle=DASHES[i % len(DASHES)], label=law
-        )
+        axes.semilogy(*np.array(line or [(math.nan, math.nan)]).T, color=color, linestyle=DASHES[known.rank], label=law)
         for _, b_h, k_h, _, grew in mine:
             axes.semilogy([b_h], [k_h], "x" if grew else marker, color=color, markersize=6 if grew else 4)
     axes.plot([], [], "ko", markersize=4, label="FMUs: decays")

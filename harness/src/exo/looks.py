@@ -43,7 +43,9 @@ SIGNALS = {
     **dict.fromkeys(("tau_h", "f_h", "f_hand", "f_h_measured"), Look(GREEN, 1)),
     **dict.fromkeys(("tau_a", "f_a", "tau_drive"), Look(BLACK, 0)),
     **dict.fromkeys(("tau_d", "f_d", "tau_e", "f_e", "tau_f"), Look(PURPLE, 0)),
+    **dict.fromkeys(("tau_ed", "f_ed"), Look(PURPLE, 1)),
     **dict.fromkeys(("e_nr", "e_q"), Look(ORANGE, 0)),
+    "p_target": Look(ORANGE, 1),
 }
 #: By label. The law that this project recommends is solid and blue.
 LABELS = {

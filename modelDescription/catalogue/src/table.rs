@@ -6,7 +6,7 @@ use model_description::entry::Kind;
 use std::fmt::Write as _;
 
 /// Parameters that are set, so that something happens: the arm meets a table with a payload and measures with noise, both
-/// arms hold one, the hand pushes and is stiff: FMU, variable, value.
+/// arms hold one, the hand pushes and is stiff (its damper not so that it cancels the spring): FMU, variable, value.
 pub const SETTINGS: [(&str, &str, f64); 11] = [
     ("ExoskeletonArm", "ft.noise", 0.2),
     ("ExoskeletonArm", "table.z", -0.3771),
@@ -17,7 +17,7 @@ pub const SETTINGS: [(&str, &str, f64); 11] = [
     ("ExoskeletonArms", "payload.attached", 1.0),
     ("HumanOperator", "segment[1].amplitude", 6.0),
     ("HumanOperator", "k_h", 50.0),
-    ("HumanOperator", "b_h", 1.0),
+    ("HumanOperator", "b_h", 1.5),
     ("HumanOperator", "delay", 0.01),
 ];
 
