@@ -123,6 +123,14 @@ enum {
   EXO_SPACE_JOINT = 2,
 };
 
+// What the robot gets from the controller: form.
+enum {
+  // the force, or torques, tau_a
+  EXO_FORM_TORQUE = 1,
+  // q_d and dq_d, for drives that close the loop with K and K_P themselves; needs tau_a_measured; an arm in joint space only
+  EXO_FORM_POSITION_SERVO = 2,
+};
+
 // What is wrong with the force sensor; the law then sees no force: ft.fault.
 enum {
   // nothing
@@ -181,7 +189,7 @@ enum {
   EXO_STATE_SOFT_STOP = 5,
   // waits for an acknowledgement, no torque
   EXO_STATE_FAULT = 6,
-  // engaged or hold, but the tank is below 0: no torque until it is repaid
+  // engaged or hold, but the tank is below 0: no torque, or drives that stand still, until it is repaid
   EXO_STATE_DEBT = 7,
 };
 
@@ -245,6 +253,16 @@ enum {
   EXO_TIMING_LATE = 1,
   // by more than a quarter of T: the motion counts for its part of a T in the velocity
   EXO_TIMING_EARLY = 2,
+};
+
+// What is wrong with the measured force of the drive, in the servo form: drive.fault.
+enum {
+  // nothing
+  EXO_DRIVE_FAULT_NONE = 0,
+  // tau_a_measured is not the drive's: not wired, or the drive is off or has other gains than the law
+  EXO_DRIVE_FAULT_MISSING = 1,
+  // tau_a_measured has the sign of the force on the drive, not of that on the robot
+  EXO_DRIVE_FAULT_WRONG_SIGN = 2,
 };
 
 // The law's number: double precision, or single precision in the packages and libraries named f32.
@@ -556,6 +574,8 @@ typedef struct exo_arm_parameters {
   struct exo_arm_joint joint;
   // Its nominal arm.
   struct exo_arm_nominal nominal;
+  // What the robot gets from the controller.
+  int32_t form; // 1 torque, 2 position_servo
 } exo_arm_parameters;
 
 // What is sensed and asked for at a tick.
@@ -592,6 +612,9 @@ typedef struct exo_arm_inputs {
   // The encoders' own word on q; if false there is no torque, at once: with supervision until the fault is
   // acknowledged, without it until q is valid again, where the law engages anew.
   int32_t encoder_valid; // 0 or 1
+  // Measured torques of the drives on the joints, means over the sample that ended; the nominal feels them in the servo form,
+  // they are not used in the torque form.
+  exo_real tau_a_measured[3]; // N.m
 } exo_arm_inputs;
 
 // Memory of an arm's law. Its content is the library's; it may be copied as bytes, to keep and restore a state.
@@ -701,6 +724,14 @@ typedef struct exo_arm_outputs {
   exo_real unattended; // m
   // By how much the tool is heavier than ft.mass, as far as the last warning tool_weight could tell; 0 before the first.
   exo_real ft_mass_error; // kg
+  // What is wrong with tau_a_measured, beside the torques that drives with the law's gains would have given: judged where
+  // one has been above a tenth of tau_max over .2 s; 0 in the torque form.
+  int32_t drive_fault; // 0 none, 1 missing, 2 wrong_sign
+  // Angles for the joints' drives in the sample that begins, held: the nominal's in the middle of that sample; 0 in the
+  // torque form.
+  double q_d[3]; // rad
+  // Velocities for the joints' drives in the sample that begins: the nominal's means in that sample; 0 in the torque form.
+  exo_real dq_d[3]; // rad/s
 } exo_arm_outputs;
 
 // One variable of a struct.
@@ -769,6 +800,8 @@ typedef struct exo_axis_parameters {
   // Readings in a row after which a jump beyond v_max or encoder.range is a fault, and after which a fault is over; 0 =
   // jumps are believed.
   int32_t encoder_samples;
+  // What the robot gets from the controller.
+  int32_t form; // 1 torque, 2 position_servo
 } exo_axis_parameters;
 
 // What is sensed and asked for at a tick.
@@ -781,11 +814,14 @@ typedef struct exo_axis_inputs {
   // = 0; while it is false tau_a is 0.
   int32_t engage; // 0 or 1
   // Whether the nominal stays where it is: the coupling then carries any load within tau_max without drift; the laws
-  // 1 to 4 in torque form only.
+  // 1 to 4 only.
   int32_t hold; // 0 or 1
   // The encoder's own word on q; if false there is no force, at once, until q is valid again, where the law engages
-  // anew; the laws 1 to 4 in torque form only.
+  // anew; the laws 1 to 4 only.
   int32_t encoder_valid; // 0 or 1
+  // Measured force of the drive on the robot, mean over the sample that ended, positive along q; the nominal feels it in
+  // the servo form, it is not used in the torque form.
+  exo_real tau_a_measured; // N
 } exo_axis_inputs;
 
 // Memory of one axis's law. Its content is the library's; it may be copied as bytes, to keep and restore a state.
@@ -816,7 +852,8 @@ typedef struct exo_axis_outputs {
   exo_real tank; // J
   // Share of the force that the energy budget left at this tick; 1 unless something is wrong.
   exo_real share;
-  // Whether tau_max leaves less than tau_demand.
+  // Whether tau_max leaves less than tau_demand; in the servo form, whether tau_a_measured has reached tau_max or the
+  // spring the bound at which it slips.
   int32_t saturated; // 0 or 1
   // Whether hold, dq_n_max or the position box kept the nominal back at this tick.
   int32_t held; // 0 or 1
@@ -826,13 +863,20 @@ typedef struct exo_axis_outputs {
   // Whether the controller was in the loop at this tick.
   int32_t engaged; // 0 or 1
   // Whether the tank is below 0: a motion beyond v_max and a_max cost more than it held; no force until it is
-  // repaid.
+  // repaid. In the servo form, where the tank follows what is measured, the drive is told to stand still until then.
   int32_t debt; // 0 or 1
   // What is wrong with q at this tick. A jump, or a position over range, is doubted for encoder.samples readings: the
-  // law goes on at its last velocity. Then there is no force. 0 but for the laws 1 to 4 in torque form.
+  // law goes on at its last velocity. Then there is no force. 0 but for the laws 1 to 4.
   int32_t encoder_fault; // 0 none, 1 not_finite, 2 over_range, 3 jump, 4 stuck, 5 invalid
   // Whether the tick came in time after the one before.
   int32_t timing; // 0 in_time, 1 late, 2 early
+  // Position command for the sample that begins, held: the nominal's in the middle of that sample; q_n in the torque form.
+  double q_d; // m
+  // Velocity command for the sample that begins: the nominal's mean in that sample; dq_n in the torque form.
+  exo_real dq_d; // m/s
+  // What is wrong with tau_a_measured, beside the force that a drive with the law's gains would have given: judged where
+  // that has been above a tenth of tau_max over .2 s; 0 in the torque form.
+  int32_t drive_fault; // 0 none, 1 missing, 2 wrong_sign
 } exo_axis_outputs;
 
 #ifdef __cplusplus
@@ -863,8 +907,8 @@ exo_status exo_arm_tune(struct exo_arm_state *state,
                         const struct exo_arm_parameters *parameters,
                         struct exo_refusal *refusal);
 
-// One tick, every T. Where the status is not 0, `state` stays as it was and `outputs` hold no torque: tau_a, f_a and tau_demand
-// are 0, the others as they were. The robot is then the caller's: brakes, or whatever needs no law. `refusal`, which may
+// One tick, every T. Where the status is not 0, `state` stays as it was and `outputs` hold no torque: tau_a, f_a, tau_demand
+// and dq_d are 0, the others as they were; drives so stand still at the last q_d. The robot is then the caller's: brakes, or whatever needs no law. `refusal`, which may
 // be null, says which input was refused.
 exo_status exo_arm_tick(struct exo_arm_state *state,
                         const struct exo_arm_inputs *inputs,
@@ -901,8 +945,8 @@ exo_status exo_axis_tune(struct exo_axis_state *state,
                          const struct exo_axis_parameters *parameters,
                          struct exo_refusal *refusal);
 
-// One tick, every T. Where the status is not 0, `state` stays as it was and `outputs` hold no torque: tau_a and tau_demand
-// are 0, the others as they were. The robot is then the caller's: brakes, or whatever needs no law. `refusal`, which may
+// One tick, every T. Where the status is not 0, `state` stays as it was and `outputs` hold no torque: tau_a, tau_demand and
+// dq_d are 0, the others as they were; a drive so stands still at the last q_d. The robot is then the caller's: brakes, or whatever needs no law. `refusal`, which may
 // be null, says which input was refused.
 exo_status exo_axis_tick(struct exo_axis_state *state,
                          const struct exo_axis_inputs *inputs,
