@@ -25,17 +25,18 @@ pub struct GearLoss {
 }
 
 impl GearLoss {
-    /// Friction (N·m) against the positive and against the negative direction, under the torque `tau` (N·m).
+    /// Friction against the positive and against the negative direction, under the torque `tau`, with what is `dry` beside it:
+    /// all in N·m, or all in N·m·s.
     #[inline]
-    pub fn against(&self, tau: f64) -> [f64; 2] {
+    pub fn against(&self, tau: f64, dry: f64) -> [f64; 2] {
         if self.drive == 0.0 && self.back == 0.0 {
-            return [0.0; 2];
+            return [dry; 2];
         }
         let (ahead, back) = (self.drive * tau, self.back / (1.0 - self.back) * tau);
         if tau >= 0.0 {
-            [ahead, back]
+            [dry + ahead, dry + back]
         } else {
-            [-back, -ahead]
+            [dry - back, dry - ahead]
         }
     }
 }
@@ -51,9 +52,10 @@ mod tests {
             back: 0.5,
         };
         // 10 N·m from the drive lift 8 N·m; 20 N·m from the load drive 10 N·m back.
-        assert_eq!(gear.against(10.0), [2.0, 10.0]);
-        assert_eq!(gear.against(-10.0), [10.0, 2.0]);
-        assert_eq!(gear.against(0.0), [0.0, 0.0]);
-        assert_eq!(GearLoss::default().against(-300.0), [0.0, 0.0]);
+        assert_eq!(gear.against(10.0, 0.0), [2.0, 10.0]);
+        assert_eq!(gear.against(-10.0, 0.0), [10.0, 2.0]);
+        assert_eq!(gear.against(-10.0, 3.0), [13.0, 5.0]);
+        assert_eq!(gear.against(0.0, 3.0), [3.0, 3.0]);
+        assert_eq!(GearLoss::default().against(-300.0, 3.0), [3.0, 3.0]);
     }
 }

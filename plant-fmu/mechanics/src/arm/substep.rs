@@ -68,8 +68,7 @@ pub fn problem(
         b: body.M * dq + torque * dt,
         joints: [0, 1, 2].map(|i| Joint {
             against: parameters.gear_loss[i]
-                .against(tau[i])
-                .map(|loss| (parameters.friction[i].limit(dq[i]) + loss) * dt),
+                .against(tau[i] * dt, parameters.friction[i].limit(dq[i]) * dt),
             low: ((parameters.stops[i].min - q[i]) / dt).min(0.0),
             high: ((parameters.stops[i].max - q[i]) / dt).max(0.0),
         }),
