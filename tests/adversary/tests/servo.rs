@@ -41,12 +41,12 @@ fn unbroken_in<const N: usize, C: Commands<N>>(
 
 #[test]
 fn one_axis_owes_a_sample_s_worth_at_most() {
-    unbroken::<1, Servo<Axes<1>, 1>>(3000, 500);
+    unbroken::<1, Servo<Axes<1>, 1>>(1500, 500);
 }
 
 #[test]
 fn three_axes_under_one_tank_owe_a_sample_s_worth_at_most() {
-    unbroken::<3, Servo<Axes<3>, 3>>(1000, 200);
+    unbroken::<3, Servo<Axes<3>, 3>>(600, 200);
 }
 
 #[test]
@@ -211,7 +211,7 @@ fn mass<C: Commands<1>>(seed: u64, E_0: f64) -> Run {
 #[test]
 fn masses_at_walls_get_no_more_than_a_sample_s_worth() {
     let (mut worst, mut beaten) = (0.0_f64, 0);
-    for seed in 0..200 {
+    for seed in 0..80 {
         for E_0 in [0.0, 0.1] {
             let run = mass::<Servo<Axes<1>, 1>>(seed, E_0);
             let most = run.worth * (1.0 + 1e-9);
@@ -230,6 +230,6 @@ fn masses_at_walls_get_no_more_than_a_sample_s_worth() {
             beaten += u32::from(run.least_tank < -run.worth - run.inexact);
         }
     }
-    println!("-E up to {worst:.3} samples' worth; without settling {beaten} of 400 are beaten");
-    assert!(beaten > 20);
+    println!("-E up to {worst:.3} samples' worth; without settling {beaten} of 160 are beaten");
+    assert!(beaten > 4);
 }
