@@ -137,6 +137,7 @@ fn a_refused_tick_of_an_axis_leaves_no_force_and_the_next_one_goes_on() {
         let without = AxisOutputs {
             tau_a: 0.0,
             tau_demand: 0.0,
+            dq_d: 0.0,
             ..before
         };
         assert_eq!(*outputs, without);

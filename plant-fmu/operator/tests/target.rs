@@ -167,6 +167,7 @@ fn each_axis_has_a_stiffness_and_a_damping_of_its_own() {
 #[test]
 fn a_handle_that_moves_with_the_target_feels_no_force_and_one_that_rests_feels_spring_and_damper() {
     let (mut along, mut at_rest) = (human(sine()), human(sine()));
+    let mut strongest = 0.0_f64;
     for k in 0..600 {
         let step = Step::at(0.01 * f64::from(k), 0.01);
         let t = step.t + step.h;
@@ -181,8 +182,9 @@ fn a_handle_that_moves_with_the_target_feels_no_force_and_one_that_rests_feels_s
             let pull = 100.0 * at_rest.k_h_factor[i] * p[i] + 10.0 * at_rest.b_h_factor[i] * dp[i];
             assert!((at_rest.outputs.f_h[i] - pull).abs() < 1e-12, "{t} s");
         }
+        strongest = strongest.max(at_rest.outputs.f_h[0].abs());
     }
-    assert!(at_rest.outputs.f_h[0].abs() > 1.0);
+    assert!(strongest > 1.0);
 }
 
 #[test]
