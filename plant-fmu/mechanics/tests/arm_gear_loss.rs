@@ -95,8 +95,10 @@ fn the_share_that_is_lost_is_that_of_what_goes_in() {
 #[test]
 fn the_balance_closes_with_order_one_while_driving_and_back_driving() {
     let run = |n: u32| {
-        let mut parameters = Parameters::default();
-        parameters.gear_loss = [LOSS; 3];
+        let parameters = Parameters {
+            gear_loss: [LOSS; 3],
+            ..Parameters::default()
+        };
         let mut arm = Arm::new(parameters, &Start::default()).unwrap();
         for k in 0..8 {
             let up = if k % 2 == 0 { 1.0 } else { -0.6 };

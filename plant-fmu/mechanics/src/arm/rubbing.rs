@@ -236,8 +236,8 @@ fn without(S: Matrix3<f64>, axes: [bool; 3]) -> Matrix3<f64> {
         s + S * hold(S, -s, axes)
     });
     let mut left = Matrix3::from_columns(&columns);
-    for axis in 0..3 {
-        if axes[axis] {
+    for (axis, held) in axes.into_iter().enumerate() {
+        if held {
             left.row_mut(axis).fill(0.0);
             left.column_mut(axis).fill(0.0);
         }
