@@ -204,7 +204,7 @@ impl ArmLaw {
         law.tick_reading(after, inputs, outputs)?;
         if let InSpace::Servo(joints) = &law.law {
             let [q_d, dq_d] = joints.told();
-            outputs.q_d = q_d.map(f64::from).into();
+            outputs.q_d = q_d.cast::<f64>().into();
             outputs.dq_d = (*dq_d).into();
             outputs.drive_fault = joints.feedback().number();
         }

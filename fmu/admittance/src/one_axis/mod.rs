@@ -153,7 +153,8 @@ impl OneAxis {
         let q = believed.q.map(|q| self.counted(q.x, engage)).transpose()?;
         let place = self.counting.place().map(|q_0| q_0.x as Real);
         let q_n = |tick: &Tick<1>| place.map_or(tick.q_n.x, |q_0| q_0 + tick.q_n.x);
-        let q_d = |q_d: Real| q_d as f64 + self.counting.place().map_or(0.0, |q_0| q_0.x);
+        let origin = self.counting.place().map_or(0.0, |q_0| q_0.x);
+        let q_d = |q_d: Real| origin + Vector1::new(q_d).cast::<f64>().x;
         let finite = |(tick, q_d, dq_d): Came<'_>, G: Real| {
             let numbers = [tick.f_demand.x, q_n(tick), tick.dq_n.x, q_d, dq_d, G];
             numbers.iter().all(|number| number.is_finite())
