@@ -366,9 +366,10 @@ typedef struct exo_arm_force_sensor {
 // Where the nominal may go. The start values leave 0.1 rad before the stops of the exoskeleton arm; and 0.4 rad where the
 // elbow would become straight, so that f_max still bends it with twice its stiction.
 typedef struct exo_arm_workspace {
-  // Whether the nominal keeps within the workspace, which is the exoskeleton arm's: workspace.q_min to
-  // workspace.q_max, and in task space workspace.radius_min. An arm that engages beyond may only come back.
-  int32_t limited; // 0 or 1
+  // 1: the nominal keeps within the workspace, which is the exoskeleton arm's: workspace.q_min to workspace.q_max, and
+  // in task space workspace.radius_min; an arm that engages beyond may only come back. 0: it may go anywhere. An
+  // Integer, because fmpy takes a false in a parameter set for true.
+  int32_t limited;
   // Least angle of each joint of the nominal, with room before the arm's stop or before a straight elbow.
   exo_real q_min[3]; // rad
   // Largest angle of each joint of the nominal, with room before the arm's stop.

@@ -51,9 +51,10 @@ const AT_LEAST_T: &str = "a value of at least T";
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[repr(C)]
 pub struct Workspace {
-    /// Whether the nominal keeps within the workspace, which is the exoskeleton arm's: workspace.q_min to
-    /// workspace.q_max, and in task space workspace.radius_min. An arm that engages beyond may only come back.
-    #[parameter(170, name = "workspace.limited", boolean, start = 1)]
+    /// 1: the nominal keeps within the workspace, which is the exoskeleton arm's: workspace.q_min to workspace.q_max, and
+    /// in task space workspace.radius_min; an arm that engages beyond may only come back. 0: it may go anywhere. An
+    /// Integer, because fmpy takes a false in a parameter set for true.
+    #[parameter(170, name = "workspace.limited", integers = 0..=1, start = 1)]
     pub limited: i32,
     /// Least angle of each joint of the nominal, with room before the arm's stop or before a straight elbow.
     #[parameter(171, name = "workspace.q_min[i]", unit = RADIAN, start = [-1.1, -1.9, 0.5])]
