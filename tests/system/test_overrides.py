@@ -173,7 +173,7 @@ def test_a_part_of_a_scenario_has_the_numbers_of_the_whole() -> None:
 
 
 def test_patterns_are_written_out_and_each_scenario_runs_once() -> None:
-    assert selection.named(["arm_b*", "wall", "arm_bias"]) == ["arm_bias", "arm_both", "wall"]
+    assert selection.named(["arm_bi*", "arm_bo?h", "wall", "arm_bias"]) == ["arm_bias", "arm_both", "wall"]
 
 
 def test_the_version_and_the_list_are_for_programs_too() -> None:

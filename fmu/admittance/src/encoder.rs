@@ -315,7 +315,7 @@ impl<const N: usize> Encoders<N> {
 
     /// The last motion's part of the one in `after` sample periods, if it goes on alike.
     fn ahead(&self, after: Real) -> f64 {
-        f64::from(after / at_least_one(self.ticks))
+        (after / at_least_one(self.ticks)) as f64
     }
 
     /// Whether the robot cannot have come from where it was told to be to `q` in this many sample periods: faster than it can, and

@@ -39,7 +39,7 @@
 //!
 //! **Saturation.** What is measured is what was delivered. So `passive`, whose nominal feels what was *not* delivered,
 //! has no servo form and is refused; below the limit `passive_applied` is the same law. Under `passive_bounded` the spring
-//! slips as in the torque form, and at the limit the reset applies (docs/specification.md section 1, step 3): v_n⁺ = v_b if
+//! slips as in the torque form, and at the limit the reset applies (docs/specification.md section 1, passive_bounded): v_n⁺ = v_b if
 //! v_b² ≤ v_n⁺², v_b = (y − K_P e)/(1 + K_P T/2) + dq. Three things differ, since a drive is never the law to the last digit:
 //!
 //! * A coupling is at its limit where |tau_m| ≥ f_max, and also where the spring is at the bound at which it slips: a drive

@@ -16,6 +16,9 @@
 
 #include "exo_law.h"
 
+/* Most inputs, or outputs, of a file. */
+enum { COLUMNS = 128 };
+
 /* A law: all memory that it needs, provided here. */
 typedef union {
   exo_arm_parameters arm;
@@ -118,8 +121,8 @@ static double get(const void *values, field from) {
 static size_t columns(int is_arm, exo_role role, char *line, field *found, char (*names)[32]) {
   size_t n = 0;
   for (char *name = strtok(line, " \n"); name != NULL; name = strtok(NULL, " \n")) {
-    if (n == 64) {
-      fail("more than 64 columns", name);
+    if (n == COLUMNS) {
+      fail("more than 128 columns", name);
     }
     snprintf(names[n], sizeof names[n], "%s", name);
     found[n++] = find(is_arm, role, name);
@@ -133,15 +136,15 @@ static const char *after(const char *line, const char *word) {
 }
 
 int main(int argc, char **argv) {
-  static char line[16384], names[64][32];
+  static char line[16384], names[COLUMNS][32];
   static state law;
   parameters given;
   inputs in;
   outputs out;
   exo_refusal refusal;
-  field reads[64], shows[64];
-  size_t n_in = 0, n_out = 0, ticks = 0, different[64] = {0};
-  double largest[64] = {0};
+  field reads[COLUMNS], shows[COLUMNS];
+  size_t n_in = 0, n_out = 0, ticks = 0, different[COLUMNS] = {0};
+  double largest[COLUMNS] = {0};
 
   if (argc != 2) {
     fail("usage", "replay vectors.txt");

@@ -28,10 +28,10 @@ struct Robot {
 
 impl Robot {
     fn moved(&mut self, tau: [f64; 3], dt: f64) {
-        for i in 0..3 {
-            let a = tau[i] / 2.0;
-            self.q[i] += self.dq[i] * dt + 0.5 * a * dt * dt;
-            self.dq[i] += a * dt;
+        for (tau, (q, dq)) in tau.into_iter().zip(self.q.iter_mut().zip(&mut self.dq)) {
+            let a = tau / 2.0;
+            *q += *dq * dt + 0.5 * a * dt * dt;
+            *dq += a * dt;
         }
     }
 }
@@ -81,10 +81,13 @@ fn run(unsteady: bool, told: bool) -> Run {
             exo_arm_tick(law, &inputs, outputs, null_mut())
         };
         assert_eq!(status, Status::Ok);
-        for i in 0..3 {
-            run.step = run.step.max((outputs.tau_a[i] - before[i]).abs());
-            run.speed = run.speed.max(robot.dq[i].abs());
+        for (tau, before) in outputs.tau_a.iter().zip(before) {
+            run.step = run.step.max((tau - before).abs());
         }
+        run.speed = robot
+            .dq
+            .iter()
+            .fold(run.speed, |most, dq| most.max(dq.abs()));
         before = outputs.tau_a;
         run.late += u32::from(outputs.timing == LATE);
         run.early += u32::from(outputs.timing == EARLY);

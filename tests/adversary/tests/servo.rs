@@ -1,4 +1,4 @@
-//! The servo form: with an ideal drive and motions within the reach, a tank ends a sample at most that sample's worth below
+//! The servo form (footnote of sec:standard_adm): with an ideal drive and motions within the reach, a tank ends a sample at most that sample's worth below
 //! zero, f_max (v_max + |v_m|) T, and from there it rises. Laws without the parts that see to it are beaten.
 #![allow(non_snake_case, reason = "the paper's symbols")]
 

@@ -345,7 +345,7 @@ STRUCTURE = [
     Mutant("structure-initial-once", "an unknown twice", insert(INITIAL, '<Unknown index="16" dependencies=""/>')),
     Mutant("structure-initial-sorted", "the first one last", lambda p: p.rotate(INITIAL)),
     Mutant(
-        "structure-initial-unknown", "a parameter", insert(INITIAL, '<Unknown index="29" dependencies=""/>'), fmpy=True
+        "structure-initial-unknown", "a parameter", insert(INITIAL, '<Unknown index="30" dependencies=""/>'), fmpy=True
     ),
     Mutant("structure-initial-kind", "fixed", edit(f"{INITIAL}/Unknown[@dependencies='1']", dependenciesKind="fixed")),
     Mutant(

@@ -1,4 +1,4 @@
-//! The law in joint space through drives that take positions: on the arm with its friction, its table and a payload.
+//! The law in joint space through drives that take positions (footnote of sec:standard_adm): on the arm with its friction, its table and a payload.
 
 use crate::initialized;
 use arm_controller::ArmController;

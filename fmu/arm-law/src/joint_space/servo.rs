@@ -1,4 +1,4 @@
-//! The law in joint space for joints with position or velocity drives: [`admittance::servo`] of three joints.
+//! The law in joint space for joints with position or velocity drives (footnote of sec:standard_adm): [`admittance::servo`] of three joints.
 //!
 //! Each joint's drive closes K (dq_d − dq + K_P (q_d − q)) within ±tau_max by itself, with K = joint.K, K_P = joint.K_P and
 //! tau_max of that joint. In task space the coupling turns with J(q), and no drive of a joint can close it.
