@@ -223,7 +223,7 @@ impl Clocked {
             self.settings.clear();
             self.period = period;
             let shown = self.by_the_period(0.0, 20_000);
-            let told = self.warnings(&vec![period; 20]);
+            let told = self.warnings(&[period; 20]);
             let named = format!("sample_period = {period:?} s");
             assert!(told.len() == 1 && told[0].contains(&named), "{told:?}");
             self.settings.push((self.fmu.reference("T"), period));
