@@ -88,8 +88,10 @@ fn course(form: Form, seconds: u32, f_z: impl Fn(f64) -> f64, vacuum: bool) -> R
 }
 
 fn plant() -> Arm {
-    let mut parameters = Parameters::default();
-    parameters.payload_m = 17.5;
+    let mut parameters = Parameters {
+        payload_m: 17.5,
+        ..Parameters::default()
+    };
     parameters.table.z = -0.4171;
     Arm::new(parameters, &Start::default()).expect("an arm")
 }
