@@ -16,7 +16,7 @@
 //! q_d = q_n + T v_m/2,   dq_d = v_m       the command for the sample that begins
 //! ```
 //!
-//! It is written for any [`Coordinates`](crate::tick::Coordinates) whose couplings are each a drive's own, with constant gains: the
+//! It is written for any [`Coordinates`] whose couplings are each a drive's own, with constant gains: the
 //! axes, and the arm's joints. Forces at an arm's handle are no drive's.
 //!
 //! **Which instant.** The drive holds the command for one period. The held values with which its mean torque is that of a
