@@ -11,15 +11,13 @@ use show::Ran;
 use crate::choices::POSITION_SERVO;
 use crate::choices::WRENCH;
 use crate::displacement::Origin;
-use crate::joint_space::{JointServo, JointSpace};
 use crate::kinematics::{Kinematics, Pose, sin_cos};
-use crate::parameters::{ArmParameters, Checked};
+use crate::parameters::ArmParameters;
 use crate::signals::{ArmInputs, ArmOutputs};
 use crate::singularity::Singularity;
 use crate::space::InSpace;
 use crate::stiff_hand::{self, Detectors};
 use crate::supervision::{Demand, Supervisor};
-use crate::task_space::TaskSpace;
 use crate::wrench::conditioner::{Made, Reading};
 use crate::wrench::frame::FixedFrame;
 use crate::wrench::{Conditioned, Conditioner, Wrench};
@@ -62,18 +60,8 @@ impl ArmLaw {
     /// # Errors
     /// The first parameter out of its range, a law that is not offered, or limits that do not suit it.
     pub fn new(parameters: &ArmParameters) -> Result<Self, ParameterError> {
-        let Checked {
-            settings,
-            gains,
-            bounds,
-            reach,
-            limits,
-            space,
-            joint,
-            workspace,
-            supervision,
-        } = parameters.checked()?;
-        let (kinematics, T) = (parameters.kinematics, settings.T);
+        let checked = parameters.checked()?;
+        let (kinematics, T) = (parameters.kinematics, checked.settings.T);
         Ok(Self {
             kinematics,
             singularity: parameters.singularity,
@@ -81,26 +69,22 @@ impl ArmLaw {
             frame: parameters.ft.sensed_in().fixed(),
             source: parameters.ft.source,
             conditioner: Conditioner::new(parameters.ft, T)?,
-            encoders: parameters.encoder.checks(&reach, T),
-            law: match space {
-                Space::Task => InSpace::Task(
-                    TaskSpace::new(settings, gains, bounds, reach, limits)?
-                        .within(workspace, kinematics),
-                ),
-                Space::Joint if parameters.form == POSITION_SERVO => InSpace::Servo(
-                    JointServo::new(settings, &joint, kinematics, reach, limits.tau_max)?
-                        .within(workspace),
-                ),
-                Space::Joint => InSpace::Joint(
-                    JointSpace::new(settings, &joint, kinematics, reach, limits)?.within(workspace),
-                ),
+            encoders: parameters.encoder.checks(&checked.reach, T),
+            // Each is made in a function of its own: a stack that holds one of them at a time is a third as deep.
+            law: match checked.space {
+                Space::Task => InSpace::task(&checked, kinematics)?,
+                Space::Joint if parameters.form == POSITION_SERVO => {
+                    InSpace::servo(&checked, kinematics)?
+                }
+                Space::Joint => InSpace::joint(&checked, kinematics)?,
             },
-            supervisor: supervision
+            supervisor: checked
+                .supervision
                 .map(|supervision| Supervisor::new(&supervision, T))
                 .transpose()?,
             q: Vector3::zeros(),
             v_n: Vector3::zeros(),
-            bounds,
+            bounds: checked.bounds,
             origin: None,
             counting: origin::Origin::default(),
         })

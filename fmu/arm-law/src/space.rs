@@ -2,7 +2,8 @@
 
 use crate::handle::{HandleTick, NotFinite};
 use crate::joint_space::{JointGains, JointServo, JointSpace, Nominal};
-use crate::kinematics::Pose;
+use crate::kinematics::{Kinematics, Pose};
+use crate::parameters::Checked;
 use crate::task_space::TaskSpace;
 use admittance::{Gains, Ledger, ParameterError, Real, Request};
 use nalgebra::Vector3;
@@ -32,6 +33,52 @@ pub(crate) enum InSpace {
 }
 
 impl InSpace {
+    /// The law at the handle.
+    #[inline(never)]
+    pub fn task(checked: &Checked, kinematics: Kinematics) -> Result<Self, ParameterError> {
+        let Checked {
+            settings,
+            gains,
+            bounds,
+            reach,
+            limits,
+            workspace,
+            ..
+        } = *checked;
+        let law = TaskSpace::new(settings, gains, bounds, reach, limits)?;
+        Ok(Self::Task(law.within(workspace, kinematics)))
+    }
+
+    /// The law at the joints.
+    #[inline(never)]
+    pub fn joint(checked: &Checked, kinematics: Kinematics) -> Result<Self, ParameterError> {
+        let Checked {
+            settings,
+            reach,
+            limits,
+            joint,
+            workspace,
+            ..
+        } = *checked;
+        let law = JointSpace::new(settings, &joint, kinematics, reach, limits)?;
+        Ok(Self::Joint(law.within(workspace)))
+    }
+
+    /// The same for joints with drives.
+    #[inline(never)]
+    pub fn servo(checked: &Checked, kinematics: Kinematics) -> Result<Self, ParameterError> {
+        let Checked {
+            settings,
+            reach,
+            limits,
+            joint,
+            workspace,
+            ..
+        } = *checked;
+        let law = JointServo::new(settings, &joint, kinematics, reach, limits.tau_max)?;
+        Ok(Self::Servo(law.within(workspace)))
+    }
+
     /// Other gains at the handle; in joint space they are checked and have no effect.
     pub fn tune(&mut self, gains: [Gains; 3]) -> Result<(), ParameterError> {
         match self {

@@ -49,15 +49,21 @@ impl InForm {
             ..
         } = *checked;
         if parameters.form == POSITION_SERVO {
-            let mut law = Servo::new(settings, [gains], &reach)?;
-            law.bound([bounds])?;
-            return Ok(Self::Servo(law));
+            return Self::servo(checked);
         }
         let mut law = Admittance::new(settings, [gains])?
             .reaching(reach)?
             .rated(Vector1::new(f_rate))?;
         law.bound([bounds])?;
         Ok(Self::Torque(law))
+    }
+
+    /// It commands a drive.
+    #[inline(never)]
+    fn servo(checked: &Checked) -> Result<Self, ParameterError> {
+        let mut law = Servo::new(checked.settings, [checked.gains], &checked.reach)?;
+        law.bound([checked.bounds])?;
+        Ok(Self::Servo(law))
     }
 
     /// Other gains: [`Admittance::tune`], [`Servo::tune`].
@@ -81,20 +87,30 @@ impl InForm {
             Self::Torque(law) => law.tick_if(q, &sensed.tau_h, request, |tick: &Tick<1>, G| {
                 accept((tick, tick.q_n.x, tick.dq_n.x), G)
             }),
-            Self::Servo(law) => {
-                let inputs = servo::Inputs {
-                    place: q,
-                    q,
-                    f_h: &sensed.tau_h,
-                    tau_m: &sensed.tau_m,
-                    request,
-                    after: request.after,
-                };
-                law.tick(&inputs, |command: &Command<1>, G| {
-                    accept((&command.tick, command.q_d.x, command.dq_d.x), G)
-                })
-            }
+            Self::Servo(law) => Self::tick_of_a_drive(law, q, sensed, request, accept),
         }
+    }
+
+    /// Apart, so that the stack of the torque form is not the deeper for it.
+    #[inline(never)]
+    fn tick_of_a_drive(
+        law: &mut Servo<Axes<1>, 1>,
+        q: &Vector1<Real>,
+        sensed: &Sensed,
+        request: &Request<1>,
+        accept: impl FnOnce(Came<'_>, Real) -> bool,
+    ) -> Result<(), Refused> {
+        let inputs = servo::Inputs {
+            place: q,
+            q,
+            f_h: &sensed.tau_h,
+            tau_m: &sensed.tau_m,
+            request,
+            after: request.after,
+        };
+        law.tick(&inputs, |command: &Command<1>, G| {
+            accept((&command.tick, command.q_d.x, command.dq_d.x), G)
+        })
     }
 
     /// One tick out of the loop, if `accept` says yes to the energy G (J).
