@@ -19,6 +19,7 @@ from exo import (
     folder,
     junit,
     kept,
+    presets,
     readings,
     report,
     results,
@@ -36,6 +37,7 @@ from exo.expansion import schema as file_schema
 from exo.experiment import Experiment
 from exo.fmu import Archive, find_fmu_dir
 from exo.kept import ALL, NONE
+from exo.presets import Preset
 from exo.scenario import Scenario
 from exo.screen import console, sentences
 from exo.systems import closed, container, ssp
@@ -109,6 +111,9 @@ def run(
     settings: Annotated[
         list[str] | None, typer.Option("--set", metavar="NAME=VALUE", help="Overrides a parameter in all cases.")
     ] = None,
+    preset: Annotated[
+        str | None, typer.Option("--preset", metavar="NAME", help="Gains of a preset in all cases; --set goes on top.")
+    ] = None,
     cases: Annotated[
         list[str] | None, typer.Option("--case", metavar="CASE", help="Only cases of this id or pattern.")
     ] = None,
@@ -133,6 +138,7 @@ def run(
         passed = _run_all(
             scenarios=scenarios,
             overrides=parse_settings(settings or []),
+            preset=presets.load(preset) if preset is not None else None,
             given=given,
             signals=signals,
             csv=csv,
@@ -400,6 +406,17 @@ def parse_settings(settings: list[str]) -> dict[str, str]:
     return parsed
 
 
+def preset_settings(preset: Preset | None, data: Scenario) -> dict[str, str]:
+    """A preset as `--set` would say it for this scenario."""
+    if preset is None:
+        return {}
+    try:
+        values = preset.qualified({name: part.archive for name, part in data.components.items()})
+    except ScenarioError as error:
+        raise ScenarioError(f"{data.id}: {error}") from error
+    return {name: repr(value) for name, value in values.items()}
+
+
 def progress_bar() -> Progress:
     """How far a long command is; nothing where no one watches."""
     columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
@@ -411,6 +428,7 @@ def _run_all(
     scenarios: list[Scenario],
     overrides: dict[str, str],
     given: dict[str, float],
+    preset: Preset | None = None,
     signals: str,
     csv: bool,
     out: Path,
@@ -419,16 +437,18 @@ def _run_all(
 ) -> bool:
     """Runs and writes one scenario after the other; whether no verdict failed."""
     fmus = find_fmu_dir(fmu_dir)
+    # All of them before the first one runs: a scenario without the preset's archive is refused.
+    gains = [preset_settings(preset, data) for data in scenarios]
     written = kept.parse(signals=signals, csv=csv, scenarios=[data.id for data in scenarios])
     folder.prepare(out, [data.id for data in scenarios])
     passed = True
     with progress_bar() as progress:
-        for data in scenarios:
+        for data, values in zip(scenarios, gains, strict=True):
             task = progress.add_task(data.id, total=len(data.cases) + 1)
             done = experiment.run(
                 scenario=data,
                 fmu_dir=fmus,
-                overrides=overrides,
+                overrides=values | overrides,
                 given=given,
                 on_case=lambda _case, task=task: progress.advance(task),  # type: ignore[misc]
             )

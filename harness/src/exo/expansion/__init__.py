@@ -13,6 +13,7 @@ Everything here works on the tables of the TOML file, before `exo.scenario` chec
 
 from typing import Any
 
+from exo import presets
 from exo.errors import ScenarioError, close_matches
 from exo.expansion import entries, figures, wiring
 from exo.expansion.axes import Axes
@@ -33,6 +34,9 @@ def expanded(data: dict[str, Any], *, origin: str) -> dict[str, Any]:
     for key, expand in (("cases", entries.cases), ("metrics", entries.metrics), ("ratios", entries.ratios)):
         if key in plain:
             plain[key] = expand(plain[key], axes=axes, known=known, where=f"{origin}: {key}")
+    if "cases" in plain:
+        archives = _archives(plain.get("components", {}))
+        plain["cases"] = [_with_preset(case, archives, where=f"{origin}: cases") for case in plain["cases"]]
     if "figures" in plain:
         plain["figures"] = figures.expand(plain["figures"], axes=axes, where=f"{origin}: figures")
     axes.check_all_is_used()
@@ -52,6 +56,29 @@ def _known(known: Any, *, where: str) -> dict[str, Any]:
             if kind == "metrics" and not isinstance(one, dict):
                 raise ScenarioError(f"{where}.{kind}.{name}: got {one!r}; expected the keys of a metric")
     return kinds | known
+
+
+def _archives(components: Any) -> dict[str, str]:
+    """Component → archive; what is wrong with them is told later."""
+    parts = components.items() if isinstance(components, dict) else ()
+    return {name: str(part["archive"]) for name, part in parts if isinstance(part, dict) and "archive" in part}
+
+
+def _with_preset(case: dict[str, Any], archives: dict[str, str], *, where: str) -> dict[str, Any]:
+    """The preset's values where the case names one; what the case says itself comes last."""
+    if "preset" not in case:
+        return case
+    place = f"{where}.{case.get('id', '?')}.preset"
+    name = case["preset"]
+    if not isinstance(name, str):
+        raise ScenarioError(f"{place}: got {name!r}; expected one of {', '.join(presets.names())}")
+    try:
+        values = presets.load(name).qualified(archives)
+    except ScenarioError as error:
+        raise ScenarioError(f"{place}: {error}") from error
+    plain = {key: value for key, value in case.items() if key != "preset"}
+    own = plain.get("parameters", {})
+    return plain | {"parameters": values | own if isinstance(own, dict) else own}
 
 
 def _check_components(components: Any, *, where: str) -> None:

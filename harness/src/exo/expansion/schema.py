@@ -52,6 +52,7 @@ def schema() -> Schema:
     panel = properties["Panel"] | curve
     properties["Figure"].update({key: panel[key] for key in SHARED})
     properties["Panel"].update(curve)
+    properties["Case"]["preset"] = {"description": "Gains that belong together, by name.", "type": "string"}
     models["Case"]["patternProperties"] = {r"\.": VALUE}
     properties["Case"]["parameters"] = properties["Component"]["parameters"] = _table(VALUE)
     profiles = _table({"anyOf": [{"type": "array", "items": {"$ref": "#/$defs/Segment"}}, {"type": "string"}]})

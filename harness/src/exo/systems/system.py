@@ -5,6 +5,9 @@
 | `TestbedSystem` | controller, plant | `gain_study`, `wall` |
 | `ExoskeletonSystem` | controller, plant, operator | `arm_performance`, `arm_contact`, `arm_payload` (Exp 1 to 3) |
 
+A system with a controller that has presets gets a parameter set `preset-<name>` for each: the preset's gains, and
+everything else at the start values of the FMUs.
+
 The tools that run such a system exchange all values at once: the harness' `exchange_at_once`. Two things follow, which
 are the only ones that do not come from a scenario:
 
@@ -16,10 +19,12 @@ Tools that connect components only run the same systems without inputs: `exo.sys
 """
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
+from exo import presets
 from exo import scenario as scenarios
 from exo.errors import ScenarioError, close_matches
+from exo.naming import elements
 from exo.scenario import PROFILE, Value
 from exo.simulate import Plan, plan
 
@@ -111,12 +116,27 @@ def load(name: str, *, default: str | None = None) -> System:
 
 
 def case_plans(name: str) -> dict[str, Plan]:
-    """The system's cases by the name of their parameter set, `<scenario>-<case>`."""
-    return {
+    """The system's cases by the name of their parameter set: `<scenario>-<case>`, then `preset-<name>`."""
+    plans = {
         f"{data.id}-{case.id}": plan(scenario=data, case=case, overrides=LATE)
         for data in map(scenarios.load, RECIPES[name].scenarios)
         for case in data.cases
     }
+    model = plans[RECIPES[name].default]
+    for preset in map(presets.load, presets.names()):
+        if preset.archive in model.components.values():
+            gains = by_element(preset.qualified(model.components))
+            plans[f"preset-{preset.name}"] = replace(model, parameters=gains | LATE, profiles={})
+    return plans
+
+
+def by_element(values: Mapping[str, float]) -> dict[str, Value]:
+    """`controller.K[1..3]` as the names of its elements."""
+    found: dict[str, Value] = {}
+    for key, value in values.items():
+        component, name = key.split(".", 1)
+        found |= {f"{component}.{element}": value for element in elements(name)}
+    return found
 
 
 def defaults(names: Iterable[str]) -> dict[str, str]:
@@ -125,7 +145,9 @@ def defaults(names: Iterable[str]) -> dict[str, str]:
     found: dict[str, str] = {}
     for key in names:
         if key not in sets:
-            raise ScenarioError(f"unknown parameter set {key}: expected <scenario>-<case>{close_matches(key, sets)}")
+            raise ScenarioError(
+                f"unknown parameter set {key}: expected <scenario>-<case> or preset-<name>{close_matches(key, sets)}"
+            )
         if other := found.get(sets[key]):
             raise ScenarioError(f"{sets[key]} takes one parameter set, got {other} and {key}")
         found[sets[key]] = key
