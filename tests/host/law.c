@@ -330,7 +330,7 @@ static void run_axis(int law, double shake)
     expect(init_axis(&state, &parameters, &refusal) == EXO_STATUS_OK, "the axis's law begins");
     double q = 0.0, dq = 0.0;
     for (int n = 0; n < TICKS; n++) {
-        exo_axis_inputs in = {q + shake * triangle(97 * n), (exo_real)(20.0 * triangle(n)), n >= 80, n >= 420 && n < 450, 1};
+        exo_axis_inputs in = {q + shake * triangle(97 * n), (exo_real)(20.0 * triangle(n)), n >= 80, n >= 420 && n < 450, 1, 0};
         expect(tick_axis(&state, &in, &out, &refusal) == EXO_STATUS_OK, "a tick of the axis is made");
         dump(&out, exo_axis_variable);
         /* A wall at 0.01 m. */

@@ -116,7 +116,7 @@ def test_an_archive_is_one_object_that_shows_the_laws_functions_only(precision: 
     shown = {words[-1] for words in lines if len(words) == 3}
     needed = {words[-1] for words in lines if len(words) == 2}
     prefix = {"f64": "exo_", "f32": "exo_f32_"}[precision]
-    calls = ["defaults", "inputs_defaults", "init", "tune", "tick", "variable"]
+    calls = ["defaults", "inputs_defaults", "init", "tune", "tick", "tick_after", "variable"]
     names = {f"exo_{law}_{call}" for law in ("arm", "axis") for call in calls}
     names |= {"exo_law_real_size", "exo_law_version"}
     assert shown == {name.replace("exo_", prefix, 1) for name in names}
