@@ -5,7 +5,7 @@ use crate::html::{Section, escape, table};
 use crate::interface::Interface;
 use crate::xml::{self, LOG_CATEGORIES, double};
 use crate::{quick_start, variables};
-use declaration::Stepping;
+use fmu_declaration::Stepping;
 use std::fmt::Write as _;
 
 /// Where the C interface deviates from FMI 2.0.5: more lenient than its table of legal calls (section 4.2.4), because

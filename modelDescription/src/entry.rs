@@ -1,6 +1,6 @@
 //! One scalar variable of an interface.
 
-use declaration::{Causality, Declared, Enumeration, Unit, Variability};
+use fmu_declaration::{Causality, Declared, Enumeration, Unit, Variability};
 
 /// One scalar variable.
 #[derive(Clone, Debug)]

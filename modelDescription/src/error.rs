@@ -1,8 +1,8 @@
 //! What a declaration got wrong, in words that name the row.
 
 use crate::entry::Kind;
-use declaration::description::SCALARS_PER_ROW;
-use declaration::{Causality, Experiment, Stepping, Variability, provenance};
+use fmu_declaration::description::SCALARS_PER_ROW;
+use fmu_declaration::{Causality, Experiment, Stepping, Variability, provenance};
 
 /// What a declaration got wrong.
 #[derive(Clone, Debug, thiserror::Error)]

@@ -4,7 +4,7 @@
 use crate::entry::{Entry, Kind};
 use crate::error::Error;
 use crate::rules::{check_frame, check_row, check_scalars, known};
-use declaration::{
+use fmu_declaration::{
     Access, Causality, Declare, Declared, Description, Enumeration, Experiment, Provenance, Scalar,
     Stepping, Unit, Variability, provenance,
 };

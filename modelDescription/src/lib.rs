@@ -1,8 +1,8 @@
-//! Writes what belongs in an FMU archive, from a model's [`declaration`] alone.
+//! Writes what belongs in an FMU archive, from a model's [`fmu_declaration`] alone.
 //!
 //! ```
-//! use declaration::{Declare, Description, Experiment, Rows, Start, Stepping};
-//! use model_description::{Interface, archive::{self, Contents}};
+//! use fmu_declaration::{Declare, Description, Experiment, Rows, Start, Stepping};
+//! use fmu_archive::{Interface, archive::{self, Contents}};
 //!
 //! #[derive(Rows, Start)]
 //! struct Lag {
@@ -28,7 +28,7 @@
 //! }
 //!
 //! let interface = Interface::of::<Lag>().unwrap();
-//! let xml = model_description::xml(&interface);
+//! let xml = fmu_archive::xml(&interface);
 //! assert!(xml.contains(r#"<ScalarVariable name="tau" valueReference="512""#));
 //! assert!(xml.contains(r#"<Unknown index="2" dependencies="1" dependenciesKind="dependent"/>"#));
 //!

@@ -3,7 +3,7 @@
 use crate::entry::{Entry, Kind};
 use crate::error::Error;
 use crate::name::{is_identifier, is_structured};
-use declaration::{
+use fmu_declaration::{
     Access, Causality, Description, Enumeration, Experiment, Scalar, Stepping, Unit, Variability,
     Variable, description::SCALARS_PER_ROW, provenance, variable::IN_ORDER,
 };
@@ -49,7 +49,7 @@ pub(crate) fn check_frame<D>(description: &Description<D>) -> Result<(), Error> 
 
 pub(crate) fn check_row<D>(
     stepping: Stepping,
-    row: &declaration::Variable<D>,
+    row: &fmu_declaration::Variable<D>,
 ) -> Result<(), Error> {
     let name = row.name;
     let held = row.access.len();
@@ -110,7 +110,7 @@ pub(crate) fn check_row<D>(
 /// Positions of the scalars named by `initially_from` among `scalars`; a vector's name (`q[i]`) means all of its elements.
 pub(crate) fn known<D>(
     scalars: &[Scalar<D>],
-    row: &declaration::Variable<D>,
+    row: &fmu_declaration::Variable<D>,
 ) -> Result<Vec<usize>, Error> {
     let calculated = matches!(
         row.causality,

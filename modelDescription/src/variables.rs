@@ -5,7 +5,7 @@ use crate::entry::{Entry, Kind};
 use crate::html::{Section, escape, table};
 use crate::interface::Interface;
 use crate::xml::{double, variability};
-use declaration::Causality;
+use fmu_declaration::Causality;
 use std::fmt::Write as _;
 
 /// The sections that have variables.

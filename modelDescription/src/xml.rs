@@ -13,7 +13,7 @@ use crate::schema::{
     Kind as Element, LogCategories, ModelStructure, ModelVariables, Root, ScalarVariable,
     SimpleType, TypeDefinitions, Unit, UnitDefinitions, Unknown, Unknowns,
 };
-use declaration::{Causality, Declared, Variability};
+use fmu_declaration::{Causality, Declared, Variability};
 use serde::Serialize as _;
 
 /// Log categories and their descriptions: those of the `export` crate, and the one that stands for all.
@@ -54,7 +54,7 @@ fn root(interface: &Interface) -> Root {
         version: crate::VERSION.into(),
         copyright: COPYRIGHT.into(),
         license: crate::LICENSE.into(),
-        generation_tool: format!("model-description {}", crate::VERSION),
+        generation_tool: format!("fmu-archive {}", crate::VERSION),
         variable_naming_convention: "structured".into(),
         co_simulation: CoSimulation {
             model_identifier: interface.name.into(),
@@ -89,7 +89,7 @@ fn root(interface: &Interface) -> Root {
 
 fn units(interface: &Interface) -> Option<UnitDefinitions> {
     let exponent = |value: i8| (value != 0).then_some(value);
-    let unit = |unit: declaration::Unit| Unit {
+    let unit = |unit: fmu_declaration::Unit| Unit {
         name: unit.name.into(),
         base: BaseUnit {
             kg: exponent(unit.base.kg),
@@ -107,7 +107,7 @@ fn units(interface: &Interface) -> Option<UnitDefinitions> {
 }
 
 fn types(interface: &Interface) -> Option<TypeDefinitions> {
-    let item = |item: &declaration::Item| Item {
+    let item = |item: &fmu_declaration::Item| Item {
         name: item.name.into(),
         value: item.value,
         description: item.about.into(),

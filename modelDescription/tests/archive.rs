@@ -2,8 +2,8 @@
 
 mod subject;
 
-use model_description::archive::{self, Contents};
-use model_description::{Component, Connection, Guide, Interface, System, document, header};
+use fmu_archive::archive::{self, Contents};
+use fmu_archive::{Component, Connection, Guide, Interface, System, document, header};
 use std::collections::{BTreeMap, BTreeSet};
 use std::io::{Cursor, Read as _};
 use subject::Subject;
@@ -140,7 +140,7 @@ fn everything_has_its_place_in_sorted_order() {
     assert_eq!(files["modelDescription.xml"].0, 0o644);
     assert_eq!(
         files["modelDescription.xml"].1,
-        model_description::xml(&interface()).into_bytes()
+        fmu_archive::xml(&interface()).into_bytes()
     );
     assert!(files["model.png"].1.starts_with(b"\x89PNG\r\n\x1a\n"));
     let text = |path: &str| String::from_utf8(files[path].1.clone()).expect("UTF-8");
@@ -300,7 +300,7 @@ fn the_document_shows_every_row_once_with_type_start_range_and_description() {
             "{row}"
         );
     }
-    for (category, _) in model_description::xml::LOG_CATEGORIES {
+    for (category, _) in fmu_archive::xml::LOG_CATEGORIES {
         assert!(page.contains(category));
     }
 }
@@ -341,7 +341,7 @@ fn the_header_defines_each_value_reference_once() {
     assert!(
         names
             .iter()
-            .all(|name| model_description::name::is_identifier(name))
+            .all(|name| fmu_archive::name::is_identifier(name))
     );
     assert_eq!(text.matches("/*").count(), text.matches("*/").count());
 }

@@ -1,6 +1,6 @@
 //! The guid is a hash of what an importer relies on: it changes with that, and with nothing else.
 
-use declaration::{Declare, Description, Experiment, Rows, Start, Stepping};
+use fmu_declaration::{Declare, Description, Experiment, Rows, Start, Stepping};
 use serde::{Deserialize, Serialize};
 
 /// The guid of a model with these rows.

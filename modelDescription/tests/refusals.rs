@@ -2,11 +2,11 @@
 
 mod subject;
 
-use declaration::{
+use fmu_archive::Interface;
+use fmu_declaration::{
     Access, Declare as _, Description, Enumeration, Experiment, Unit, Variability, Variable,
     choices, unit,
 };
-use model_description::Interface;
 use subject::{Subject, with_row, within};
 
 // Rows of the subject, by position.

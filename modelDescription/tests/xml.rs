@@ -2,8 +2,8 @@
 
 mod subject;
 
-use declaration::Declare as _;
-use model_description::{Interface, xml};
+use fmu_archive::{Interface, xml};
+use fmu_declaration::Declare as _;
 use std::collections::{BTreeMap, BTreeSet};
 use subject::{Element, Subject, elements};
 

@@ -23,7 +23,7 @@ pub fn libraries() -> Outcome<BTreeMap<&'static str, PathBuf>> {
         build.args(["--package", &fmu.package(), "--example", fmu.name]);
         names.push(fmu.name);
     }
-    build.args(["--package", "export"]);
+    build.args(["--package", "fmu-export"]);
     for example in [SMALLEST, LAG] {
         build.args(["--example", example]);
         names.push(example);

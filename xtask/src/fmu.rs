@@ -22,7 +22,7 @@ pub fn build_all(bless: bool) -> Outcome {
     for fmu in fmus::ALL {
         requests.push(request(fmu.name, &fmu.package(), &folder)?);
     }
-    requests.push(request(SMALLEST, "export", &folder.join("test"))?);
+    requests.push(request(SMALLEST, "fmu-export", &folder.join("test"))?);
     pack(&requests)?;
     for fmu in fmus::ALL {
         let size = |path: &Path| std::fs::metadata(path).map_or(0, |file| file.len()) / 1000;

@@ -253,7 +253,7 @@ mod tests {
             for name in ["serde_derive", "syn", "paste", "proptest", "autocfg"] {
                 assert!(find(name).is_none(), "{} links {name}", fmu.name);
             }
-            let export = find("export").expect("it makes the C interface");
+            let export = find("fmu-export").expect("it makes the C interface");
             assert!(export.texts.is_empty() && export.purl.is_none(), "our own");
             assert!(export.uses.iter().any(|id| id.starts_with("postcard-")));
             assert!(

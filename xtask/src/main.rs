@@ -34,7 +34,7 @@
 mod build;
 mod catalogue;
 mod checks;
-/// The source that the package `model-description` compiles, too: this one need not depend on it.
+/// The source that the package `fmu-archive` compiles, too: this one need not depend on it.
 #[path = "../../modelDescription/src/component.rs"]
 mod component;
 mod dist;

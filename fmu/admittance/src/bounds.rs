@@ -13,7 +13,7 @@
 
 use crate::parameters::{check, limit};
 use crate::{ParameterError, Real, real};
-use declaration::range::{FINITE, POSITIVE};
+use fmu_declaration::range::{FINITE, POSITIVE};
 
 /// What is expected of a largest position.
 const GREATER: &str = "a value greater than the least one";

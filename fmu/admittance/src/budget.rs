@@ -7,7 +7,7 @@
 
 use crate::parameters::{check, limit};
 use crate::{ParameterError, Real, real};
-use declaration::range::POSITIVE;
+use fmu_declaration::range::POSITIVE;
 use nalgebra::SVector;
 
 /// How far the robot can move within a sample: the motions for which passivity is promised, in the coordinates in which

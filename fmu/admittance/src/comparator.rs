@@ -13,7 +13,7 @@ use crate::motion::Sampling;
 use crate::parameters::check;
 use crate::real::floored;
 use crate::{Gains, Motion, ParameterError, Real, Settings};
-use declaration::range::{NOT_NEGATIVE, POSITIVE};
+use fmu_declaration::range::{NOT_NEGATIVE, POSITIVE};
 
 /// The desired model of a comparator between two ticks, and the robot's motion beside it.
 #[derive(Clone, Copy, Debug, PartialEq)]

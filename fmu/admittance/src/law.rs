@@ -2,7 +2,7 @@
 
 use crate::ParameterError;
 use crate::listed::{Text, laws};
-use declaration::{Enumeration, Item};
+use fmu_declaration::{Enumeration, Item};
 
 /// The laws. What is fed back to the nominal once the force is limited decides everything; the paper is silent on it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -37,7 +37,7 @@ use crate::midpoint::Sample;
 use crate::parameters::check;
 use crate::real::{self, sat};
 use crate::{Gains, ParameterError, Real, Settings};
-use declaration::range::POSITIVE;
+use fmu_declaration::range::POSITIVE;
 
 /// The controller between two ticks.
 #[derive(Clone, Copy, Debug, PartialEq)]

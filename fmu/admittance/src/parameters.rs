@@ -4,9 +4,9 @@ use crate::law::Felt;
 use crate::retune::Gradual;
 use crate::{Law, Real, real};
 use core::fmt;
-use declaration::check::{self, Expected, Objection};
-use declaration::range::{NOT_NEGATIVE, POSITIVE, Range};
-use declaration::{Causality, Rows};
+use fmu_declaration::check::{self, Expected, Objection};
+use fmu_declaration::range::{NOT_NEGATIVE, POSITIVE, Range};
+use fmu_declaration::{Causality, Rows};
 
 /// What all axes share and what stays fixed during a run.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -2,7 +2,7 @@
 
 use crate::parameters::{check, limit};
 use crate::{ParameterError, Real, real};
-use declaration::range::POSITIVE;
+use fmu_declaration::range::POSITIVE;
 use nalgebra::SVector;
 
 /// A limit on the change of N forces in a sample.

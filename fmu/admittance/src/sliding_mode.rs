@@ -36,7 +36,7 @@ use crate::comparator::{ComparatorTick, Desired};
 use crate::parameters::check;
 use crate::real::{floored, sat};
 use crate::{Gains, ParameterError, Real, Settings};
-use declaration::range::NOT_NEGATIVE;
+use fmu_declaration::range::NOT_NEGATIVE;
 
 /// The controller between two ticks.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -12,7 +12,7 @@
 
 use crate::Real;
 use core::fmt::{Display, Formatter};
-use declaration::choices;
+use fmu_declaration::choices;
 
 choices! { TIMING "Timing" "Whether a tick came in time":
     IN_TIME = 0 "in_time" "within a quarter of T";

@@ -6,7 +6,7 @@
 //!
 //! ```
 //! use arm_controller::ArmController;
-//! use export::{Log, Model, Step};
+//! use fmu_export::{Log, Model, Step};
 //!
 //! let mut controller = ArmController::default();
 //! controller.inputs.f_h = [0.0, 0.0, 4.0]; // upwards
@@ -15,7 +15,7 @@
 //! assert_eq!(controller.tick, 0);
 //! assert!(controller.outputs.f_a[2] > 0.0 && controller.outputs.f_a[0] == 0.0);
 //! assert!(controller.outputs.tau_a[1] > 0.0); // positive pitch lifts
-//! # Ok::<(), export::Refusal>(())
+//! # Ok::<(), fmu_export::Refusal>(())
 //! ```
 //!
 //! A tick, with the equations of the paper's task space:

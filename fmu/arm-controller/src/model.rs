@@ -7,7 +7,7 @@ use admittance::timing::{self, IN_TIME};
 use arm_law::arm_law::NotFinite;
 use arm_law::choices::TORQUE;
 use arm_law::{ArmInputs, ArmLaw, ArmParameters};
-use export::{Clock, Log, Model, Refusal, Sample, Sampler, Step};
+use fmu_export::{Clock, Log, Model, Refusal, Sample, Sampler, Step};
 
 impl Model for ArmController {
     fn initialize(&mut self, _start_time: f64, log: &mut Log<'_>) -> Result<(), Refusal> {

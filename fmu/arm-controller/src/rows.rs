@@ -1,8 +1,8 @@
 //! The variables, one row each: those of the arm's law.
 
 use arm_law::{ArmInputs, ArmLaw, ArmOutputs, ArmParameters};
-use declaration::{Declare, Description, Experiment, Rows, Start, Stepping};
-use export::Sampler;
+use fmu_declaration::{Declare, Description, Experiment, Rows, Start, Stepping};
+use fmu_export::Sampler;
 use serde::{Deserialize, Serialize};
 
 /// The controller: its variables, and its state.

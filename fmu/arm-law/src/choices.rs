@@ -1,7 +1,7 @@
 //! Choices, states and faults: the items of the variables that hold one of a list.
 
 use crate::supervision::{Diagnostic, State};
-use declaration::{Enumeration, Item, choices};
+use fmu_declaration::{Enumeration, Item, choices};
 
 pub use admittance::encoder::FAULT as ENCODER_FAULT;
 pub use admittance::one_axis::form::{FORM, POSITION_SERVO, TORQUE};

@@ -2,7 +2,7 @@
 
 use admittance::encoder::{Checks, Encoders};
 use admittance::{Reach, Real};
-use declaration::{Rows, Start};
+use fmu_declaration::{Rows, Start};
 
 /// What the joints' positions must keep to. The arm's joints turn less than once.
 #[derive(Clone, Copy, Debug, PartialEq, Rows, Start)]

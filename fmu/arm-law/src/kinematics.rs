@@ -6,7 +6,7 @@
 
 use admittance::parameters::in_range;
 use admittance::{ParameterError, Real, real};
-use declaration::{Rows, Start};
+use fmu_declaration::{Rows, Start};
 use nalgebra::{Matrix3, Vector3};
 
 /// The lengths that place the handle. The start values are the exoskeleton arm's.

@@ -6,8 +6,8 @@ use admittance::parameters::{check, limit};
 use admittance::rate::part;
 use admittance::tick::{Actuators, Delivered};
 use admittance::{Law, ParameterError, Real, real};
-use declaration::check::Expected;
-use declaration::range::POSITIVE;
+use fmu_declaration::check::Expected;
+use fmu_declaration::range::POSITIVE;
 use nalgebra::{Matrix3, Vector3};
 
 /// How torques beyond ±tau_max are brought within.

@@ -17,7 +17,7 @@ use admittance::hand::StiffHand;
 use admittance::law::OFFERED_LAW;
 use admittance::parameters::{in_range, tunable_in_range};
 use admittance::{Bounds, Gains, Law, ParameterError, Reach, Real, Settings};
-use declaration::{Rows, Start};
+use fmu_declaration::{Rows, Start};
 
 /// Parameters of the arm's law. Vectors are along x, y, z of the base frame, or by joint. Any bits may come
 /// from C: what cannot be used is refused by name.

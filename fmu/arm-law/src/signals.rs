@@ -6,7 +6,7 @@ use crate::choices::{
 };
 use admittance::Real;
 use admittance::timing::TIMING;
-use declaration::{Rows, Start};
+use fmu_declaration::{Rows, Start};
 
 /// What is sensed and asked for at a tick.
 #[derive(Clone, Copy, Debug, PartialEq, Rows, Start)]

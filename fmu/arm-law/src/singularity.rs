@@ -18,7 +18,7 @@
 
 use admittance::parameters::in_range;
 use admittance::{ParameterError, Real, real};
-use declaration::{Rows, Start};
+use fmu_declaration::{Rows, Start};
 
 /// Share of sigma_slow below which the damping grows no further.
 const LEAST_SHARE: Real = 0.25;

@@ -8,7 +8,7 @@ use arm_law::ParameterError;
 use arm_law::joint_space::{Angles, JointGains, JointRequest, Joints};
 use arm_law::kinematics::Kinematics;
 use arm_law::nominal::{Link, NominalArm};
-use declaration::check::Expected;
+use fmu_declaration::check::Expected;
 use nalgebra::Vector3;
 use proptest::prelude::*;
 

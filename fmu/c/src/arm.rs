@@ -9,7 +9,7 @@ use arm_law::arm_law::NotFinite;
 use arm_law::{ArmInputs, ArmLaw, ArmOutputs, ArmParameters};
 use core::mem::offset_of;
 use core::ops::Range;
-use declaration::Rows as _;
+use fmu_declaration::Rows as _;
 
 /// Memory of an arm's law. Its content is the library's; it may be copied as bytes, to keep and restore a state.
 #[repr(C)]

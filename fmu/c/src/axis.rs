@@ -8,7 +8,7 @@ use crate::variable::{self, Variable};
 use admittance::one_axis::{AxisInputs, AxisOutputs, AxisParameters, NotFinite, OneAxis};
 use core::mem::offset_of;
 use core::ops::Range;
-use declaration::Rows as _;
+use fmu_declaration::Rows as _;
 
 /// Memory of one axis's law. Its content is the library's; it may be copied as bytes, to keep and restore a state.
 #[repr(C)]

@@ -3,8 +3,8 @@
 use crate::Real;
 use admittance::{Law, ParameterError};
 use core::ffi::c_char;
-use declaration::check::Expected;
-use declaration::{Access, Variable as Row};
+use fmu_declaration::check::Expected;
+use fmu_declaration::{Access, Variable as Row};
 
 /// What a call returns. Everything but `Ok` changed nothing, but that a tick left its outputs without torque.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -3,8 +3,8 @@
 use crate::pointer::{self, Place};
 use crate::refusal::{Status, text};
 use core::ffi::c_char;
-use declaration::place::Stored;
-use declaration::{Access, Rows, Variable as Row};
+use fmu_declaration::place::Stored;
+use fmu_declaration::{Access, Rows, Variable as Row};
 
 /// In which struct a variable lies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -6,11 +6,11 @@
 use admittance::one_axis::{AxisInputs, AxisOutputs, AxisParameters};
 use arm_controller::ArmController;
 use arm_law::{ArmInputs, ArmOutputs, ArmParameters};
-use declaration::{Access, Causality, Declare};
 use exo_law::arm::{exo_arm_defaults, exo_arm_inputs_defaults, exo_arm_variable};
 use exo_law::axis::{exo_axis_defaults, exo_axis_inputs_defaults, exo_axis_variable};
 use exo_law::refusal::Status;
 use exo_law::variable::{Kind, Role, Variable};
+use fmu_declaration::{Access, Causality, Declare};
 use std::collections::{BTreeMap, BTreeSet};
 use std::ffi::CStr;
 use std::mem::{MaybeUninit, size_of};

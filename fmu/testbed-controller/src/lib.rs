@@ -4,7 +4,7 @@
 //! the force tau_a until the next. All outputs are those at the tick that `tick` names.
 //!
 //! ```
-//! use export::{Log, Model, Step};
+//! use fmu_export::{Log, Model, Step};
 //! use testbed_controller::TestbedController;
 //!
 //! let mut controller = TestbedController::default();
@@ -13,7 +13,7 @@
 //! controller.step(Step::at(0.0, 0.002), &mut Log::silent())?;
 //! assert_eq!(controller.tick, 0);
 //! assert!(controller.outputs.tau_a > 0.0); // towards where the nominal mass is being pushed
-//! # Ok::<(), export::Refusal>(())
+//! # Ok::<(), fmu_export::Refusal>(())
 //! ```
 //!
 //! | variable | symbol | equation |

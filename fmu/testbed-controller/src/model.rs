@@ -9,7 +9,7 @@ use admittance::one_axis::{AxisInputs, AxisParameters, NotFinite};
 use admittance::parameters::in_range;
 use admittance::servo;
 use admittance::timing::{self, IN_TIME};
-use export::{Clock, Log, Model, Refusal, Sample, Sampler, Step};
+use fmu_export::{Clock, Log, Model, Refusal, Sample, Sampler, Step};
 
 impl Model for TestbedController {
     fn initialize(&mut self, _start_time: f64, log: &mut Log<'_>) -> Result<(), Refusal> {

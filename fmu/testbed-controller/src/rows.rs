@@ -2,8 +2,8 @@
 
 use crate::controller::Controller;
 use admittance::one_axis::{AxisInputs, AxisOutputs, AxisParameters};
-use declaration::{Declare, Description, Experiment, Rows, Start, Stepping};
-use export::Sampler;
+use fmu_declaration::{Declare, Description, Experiment, Rows, Start, Stepping};
+use fmu_export::Sampler;
 use serde::{Deserialize, Serialize};
 
 /// The controller: its variables, and its state.

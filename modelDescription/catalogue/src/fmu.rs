@@ -2,8 +2,8 @@
 //! `modelDescription/<Name>.xml`, so that an interface change is a diff that someone reads.
 
 use crate::root;
-use declaration::Declare;
-use model_description::{Error, Interface, xml};
+use fmu_archive::{Error, Interface, xml};
+use fmu_declaration::Declare;
 use std::io;
 use std::path::PathBuf;
 
@@ -86,7 +86,7 @@ impl Fmu {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use export::log::{ALL, Category};
+    use fmu_export::log::{ALL, Category};
 
     #[test]
     fn committed_descriptions_are_what_the_declarations_give() {

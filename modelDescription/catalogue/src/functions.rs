@@ -1,6 +1,6 @@
 //! The functions that a library exports.
 
-use export::legality::Function;
+use fmu_export::legality::Function;
 
 /// Functions that are called without an instance, so that they are not in the table of legal calls.
 const WITHOUT_INSTANCE: [&str; 3] = ["fmi2GetTypesPlatform", "fmi2GetVersion", "fmi2Instantiate"];

@@ -1,7 +1,7 @@
 //! The pictures say what the models compute: names, and the places of the arm's points.
 
 use crate::FMUS;
-use export::{Log, Model as _};
+use fmu_export::{Log, Model as _};
 use std::collections::BTreeSet;
 
 /// Contents of the labels that are variables' names.

@@ -1,8 +1,8 @@
 //! Archives from libraries, as `cargo xtask` asks for them in a file of JSON.
 
 use crate::{Fmu, wiring};
-use model_description::archive::{self, Binary, Contents};
-use model_description::{Component, Guide, Product, licences, sbom};
+use fmu_archive::archive::{self, Binary, Contents};
+use fmu_archive::{Component, Guide, Product, licences, sbom};
 use serde::Deserialize;
 use std::path::PathBuf;
 

@@ -1,8 +1,8 @@
 //! What the C host (`tests/host/host.c`) must know of an FMU, as lines of text.
 
-use declaration::Causality;
-use model_description::Interface;
-use model_description::entry::Kind;
+use fmu_archive::Interface;
+use fmu_archive::entry::Kind;
+use fmu_declaration::Causality;
 use std::fmt::Write as _;
 
 /// Parameters that are set, so that something happens: the arm meets a table with a payload and measures with noise, both

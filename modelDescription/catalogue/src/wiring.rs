@@ -3,7 +3,7 @@
 //! The controllers get the human's force itself. A plant's sensor is ideal at the start values: its reading is the same force,
 //! one step later. It takes the force's place where the sensor is the subject.
 
-use model_description::{Connection, System};
+use fmu_archive::{Connection, System};
 
 /// From an output to an input; `when` says the case, if it is not the usual one.
 const fn wire(
@@ -147,8 +147,8 @@ pub fn system(fmu: &str) -> System<'static> {
 mod tests {
     use super::*;
     use crate::FMUS;
-    use declaration::Causality;
-    use model_description::entry::{Entry, Kind};
+    use fmu_archive::entry::{Entry, Kind};
+    use fmu_declaration::Causality;
 
     /// The scalars that one end of a connection names.
     fn end((fmu, variable): (&str, &str)) -> Vec<Entry> {

@@ -7,7 +7,7 @@ use crate::variable::{Access, IN_ORDER, Variable};
 /// What cannot be is no row; the compiler says so:
 ///
 /// ```compile_fail
-/// #[derive(declaration::Rows)]
+/// #[derive(fmu_declaration::Rows)]
 /// struct Twice {
 ///     /// One.
 ///     #[input(3)]
@@ -16,11 +16,11 @@ use crate::variable::{Access, IN_ORDER, Variable};
 ///     #[input(3)]
 ///     other: f64,
 /// }
-/// const ROWS: usize = <Twice as declaration::Rows>::ROWS.len();
+/// const ROWS: usize = <Twice as fmu_declaration::Rows>::ROWS.len();
 /// ```
 ///
 /// ```compile_fail
-/// #[derive(declaration::Rows)]
+/// #[derive(fmu_declaration::Rows)]
 /// struct Unknown {
 ///     /// No such key.
 ///     #[parameter(0, units = METRE)]
@@ -29,7 +29,7 @@ use crate::variable::{Access, IN_ORDER, Variable};
 /// ```
 ///
 /// ```compile_fail
-/// #[derive(declaration::Rows)]
+/// #[derive(fmu_declaration::Rows)]
 /// struct Foreign {
 ///     /// No type of the interface.
 ///     #[parameter(0)]
@@ -38,18 +38,18 @@ use crate::variable::{Access, IN_ORDER, Variable};
 /// ```
 ///
 /// ```compile_fail
-/// #[derive(declaration::Rows)]
+/// #[derive(fmu_declaration::Rows)]
 /// struct Inner {
 ///     /// There.
 ///     #[input(0)]
 ///     x: f64,
 /// }
-/// #[derive(declaration::Rows)]
+/// #[derive(fmu_declaration::Rows)]
 /// struct Outer {
 ///     #[part(about = [("y", "not there")])]
 ///     inner: Inner,
 /// }
-/// const ROWS: usize = <Outer as declaration::Rows>::ROWS.len();
+/// const ROWS: usize = <Outer as fmu_declaration::Rows>::ROWS.len();
 /// ```
 pub trait Rows: Sized + 'static {
     /// The rows, by number.

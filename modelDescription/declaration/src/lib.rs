@@ -6,7 +6,7 @@
 //! the model's [`Default`].
 //!
 //! ```
-//! use declaration::{Declare, Description, Experiment, Rows, Start, Stepping};
+//! use fmu_declaration::{Declare, Description, Experiment, Rows, Start, Stepping};
 //!
 //! #[derive(Rows, Start)]
 //! struct Lag {
@@ -69,8 +69,8 @@ pub mod unit;
 pub mod variable;
 
 pub use compose::Rows;
-pub use declaration_derive::{Rows, Start};
 pub use description::{Declare, Description, Experiment, Scalar, Stepping};
+pub use fmu_declaration_derive::{Rows, Start};
 pub use place::{Place, Value};
 #[cfg(feature = "std")]
 pub use provenance::Provenance;

@@ -18,7 +18,7 @@ macro_rules! real {
 /// code asks for an item, a constant comes before its number.
 ///
 /// ```
-/// declaration::choices! { MODE "Mode" "What it does":
+/// fmu_declaration::choices! { MODE "Mode" "What it does":
 ///     IDLE = 1 "idle" "nothing";
 ///     4 "busy" "something";
 /// }

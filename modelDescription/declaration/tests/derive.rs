@@ -1,8 +1,8 @@
 //! Rows and start values from attributes: what they become, alone, as a part and in an array.
 #![allow(non_snake_case, reason = "symbols as in the paper: H")]
 
-use declaration::check::{self, Expected};
-use declaration::{Access, Causality, Rows, Start, Variability, choices, unit};
+use fmu_declaration::check::{self, Expected};
+use fmu_declaration::{Access, Causality, Rows, Start, Variability, choices, unit};
 
 choices! { MODE "Mode" "what it does":
     1 "idle" "nothing";
@@ -60,7 +60,7 @@ struct Whole {
     hidden: u64,
 }
 
-fn whole() -> &'static [declaration::Variable<Whole>] {
+fn whole() -> &'static [fmu_declaration::Variable<Whole>] {
     Whole::ROWS
 }
 

@@ -1,7 +1,7 @@
 //! The smallest model: y = ∫ u dt, with u held over each step. `lag.rs` shows every type of variable.
 
-use declaration::{Declare, Description, Experiment, Rows, Start, Stepping};
-use export::{Log, Model, Refusal, Step};
+use fmu_declaration::{Declare, Description, Experiment, Rows, Start, Stepping};
+use fmu_export::{Log, Model, Refusal, Step};
 use serde::{Deserialize, Serialize};
 
 /// Its variables, one row each.
@@ -37,4 +37,4 @@ impl Model for Integrator {
     }
 }
 
-export::fmi2!(Integrator);
+fmu_export::export!(Integrator);

@@ -2,8 +2,8 @@
 //!
 //! It is also the subject of the tests of the C interface (`tests/abi`), as a shared library.
 
-use declaration::{Declare, Description, Experiment, Rows, Start, Stepping, choices};
-use export::{Log, Model, Refusal, Step};
+use fmu_declaration::{Declare, Description, Experiment, Rows, Start, Stepping, choices};
+use fmu_export::{Log, Model, Refusal, Step};
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 
@@ -96,4 +96,4 @@ impl Model for Lag {
     }
 }
 
-export::fmi2!(Lag);
+fmu_export::export!(Lag);

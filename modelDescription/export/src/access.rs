@@ -6,10 +6,10 @@ use crate::instance::{Instance, refused};
 use crate::legality::Phase;
 use crate::model::{Model, Refusal};
 use crate::provenance::text;
-use declaration::{Access, Causality, Of, Place, Provenance, Range, Variable};
+use fmu_declaration::{Access, Causality, Of, Place, Provenance, Range, Variable};
 
 /// A type of the interface: its name, and what a row demands of a value.
-pub trait Value: declaration::Value {
+pub trait Value: fmu_declaration::Value {
     /// Name in the standard.
     const TYPE: &'static str;
 

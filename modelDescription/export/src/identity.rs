@@ -58,7 +58,7 @@ impl Identity {
 mod tests {
     use super::*;
     use crate::{Log, Refusal, Step};
-    use declaration::{Declare, Description, Experiment, Rows, Start, Stepping};
+    use fmu_declaration::{Declare, Description, Experiment, Rows, Start, Stepping};
     use serde::{Deserialize, Serialize};
 
     macro_rules! model {

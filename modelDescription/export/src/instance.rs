@@ -261,8 +261,8 @@ mod tests {
     use super::*;
     use crate::access::Value;
     use crate::{Refusal, Step};
-    use declaration::Variability::Continuous;
-    use declaration::{Declare, Description, Experiment, Stepping, real, unit};
+    use fmu_declaration::Variability::Continuous;
+    use fmu_declaration::{Declare, Description, Experiment, Stepping, real, unit};
 
     /// Two readings, of which one may fail as NaN.
     #[derive(Clone, Default, serde::Serialize, serde::Deserialize)]

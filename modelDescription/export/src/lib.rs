@@ -1,11 +1,11 @@
 //! The FMI 2.0 co-simulation C interface of any model.
 //!
-//! A model is a struct whose fields are its variables ([`declaration`]) and which can be initialized and stepped
-//! ([`Model`]). [`fmi2!`] turns it into the 34 C functions of the standard. This crate knows no robot; the smallest
+//! A model is a struct whose fields are its variables ([`fmu_declaration`]) and which can be initialized and stepped
+//! ([`Model`]). [`export!`] turns it into the 34 C functions of the standard. This crate knows no robot; the smallest
 //! model, an integrator, is in `examples/integrator.rs`.
 //!
 //! The life of a call, for every function alike:
-//! 1. the C function ([`fmi2!`], module [`functions`]) hands over to the guard with its name and a closure;
+//! 1. the C function ([`export!`], module [`functions`]) hands over to the guard with its name and a closure;
 //! 2. the guard ([`guard`]) checks the component, looks the function up in the legality table ([`legality`]) for the
 //!    instance's current phase, runs the closure with panics caught, logs a refusal and returns the status;
 //! 3. the closure is a method of [`instance::Instance`], which checks arguments, then changes the instance.

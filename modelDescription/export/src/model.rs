@@ -1,7 +1,7 @@
 //! What a model must offer to be exported.
 
 use crate::{Clock, Log, Step};
-use declaration::Declare;
+use fmu_declaration::Declare;
 use serde::{Serialize, de::DeserializeOwned};
 use std::path::Path;
 

@@ -1,7 +1,7 @@
 //! No NaN and no infinity may leave a model, but for NaN where a row says so (a sensor's failure).
 
 use crate::model::Model;
-use declaration::{Access, Place, Variable};
+use fmu_declaration::{Access, Place, Variable};
 
 /// The Reals that a model computes, in runs that can be looked through without a look at their rows.
 pub(crate) struct Outputs<M: Model> {

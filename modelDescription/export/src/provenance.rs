@@ -1,6 +1,6 @@
-//! What the library was built from, readable as the variables that [`declaration::provenance`] declares.
+//! What the library was built from, readable as the variables that [`fmu_declaration::provenance`] declares.
 
-use declaration::Provenance;
+use fmu_declaration::Provenance;
 
 /// The value of the variable. The git hash is that of `EXO_GIT_HASH` in the environment of the build; cargo builds
 /// anew when it changes.

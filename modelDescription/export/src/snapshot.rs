@@ -16,7 +16,7 @@ use crate::identity::{self, Identity};
 use crate::legality::Phase;
 use crate::model::Model;
 use crate::outputs::Outputs;
-use declaration::Causality;
+use fmu_declaration::Causality;
 use serde::{Deserialize, Serialize};
 
 const MAGIC: &[u8; 8] = b"FMI2STAT";

@@ -1,11 +1,11 @@
 //! The macro that gives the generic functions their C names.
 
-/// Exports a [`Model`](crate::Model) as the 34 functions of FMI 2.0 co-simulation: `export::fmi2!(Lag);`, once in a `cdylib`.
+/// Exports a [`Model`](crate::Model) as the 34 functions of FMI 2.0 co-simulation: `fmu_export::export!(Lag);`, once in a `cdylib`.
 ///
 /// Two crates that expand it are never linked into one binary: the symbols would clash. That is why every FMU is a
 /// library crate with the expansion in a `cdylib` target of its own.
 #[macro_export]
-macro_rules! fmi2 {
+macro_rules! export {
     ($model:ty) => {
         #[allow(
                 clippy::missing_safety_doc,
@@ -20,7 +20,7 @@ macro_rules! fmi2 {
             use $crate::{functions, legality::Function};
             type Model = $model;
 
-            $crate::fmi2! { @ functions
+            $crate::export! { @ functions
                 fn fmi2Instantiate(name: FmiString, kind: Type, guid: FmiString, location: FmiString, callbacks: *const Callbacks, visible: Boolean, logging: Boolean) -> Component
                     { functions::instantiate::<Model>(name, kind, guid, location, callbacks, visible, logging) }
                 fn fmi2FreeInstance(c: Component) -> () { functions::free_instance::<Model>(c) }

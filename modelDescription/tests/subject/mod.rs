@@ -1,8 +1,8 @@
 //! A model with a row of each kind, and a reader for what is written from it.
 #![allow(dead_code, reason = "each test file uses its part")]
 
-use declaration::unit::{Base, Display};
-use declaration::{
+use fmu_declaration::unit::{Base, Display};
+use fmu_declaration::{
     Access, Declare, Description, Enumeration, Experiment, Range, Rows, Start, Stepping, Unit,
     Variable, choices,
 };

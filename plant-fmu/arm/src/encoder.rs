@@ -1,7 +1,7 @@
 //! The encoders of the joints.
 
 use core::f64::consts::PI;
-use declaration::{Rows, Start, choices};
+use fmu_declaration::{Rows, Start, choices};
 use serde::{Deserialize, Serialize};
 
 choices! { ENCODER "EncoderKind" "Where the encoders sit":

@@ -2,8 +2,8 @@
 //! clock.
 
 use crate::noise::normal;
-use declaration::{Rows, Start, choices};
-use export::Step;
+use fmu_declaration::{Rows, Start, choices};
+use fmu_export::Step;
 use mechanics::arm::kinematics::Pose;
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};

@@ -7,7 +7,7 @@
 //! positive lifts. Forces act on the arm, positive along the axis: f_h at the handle, f_d and f_e at the pad.
 //!
 //! ```
-//! use export::{Log, Model, Step};
+//! use fmu_export::{Log, Model, Step};
 //! use exoskeleton_arm::ExoskeletonArm;
 //!
 //! let mut arm = ExoskeletonArm::default();
@@ -19,7 +19,7 @@
 //! arm.inputs.tau_a = [0.0, 60.0, 20.0]; // both pitch joints up
 //! arm.step(Step::at(1.0, 0.2), &mut Log::silent())?;
 //! assert!(arm.outputs.dp[2] > 0.0);
-//! # Ok::<(), export::Refusal>(())
+//! # Ok::<(), fmu_export::Refusal>(())
 //! ```
 //!
 //! | variable | symbol | equation | item |
@@ -33,8 +33,8 @@
 //! | `attached`, `tension`, `shear` | | the payload that the vacuum holds, and the pad's force on it | [`mechanics::arm::payload`] |
 //! | `energy.*` | | Σ work + payload − Σ loss − (E − E(0)) = residual | [`mechanics::arm::energy`] |
 //!
-//! 1. Parameters are checked by [`initialize`](export::Model::initialize); the outputs then show the start state.
-//! 2. [`step`](export::Model::step) holds the inputs and splits the communication step into equal substeps no longer
+//! 1. Parameters are checked by [`initialize`](fmu_export::Model::initialize); the outputs then show the start state.
+//! 2. [`step`](fmu_export::Model::step) holds the inputs and splits the communication step into equal substeps no longer
 //!    than `substep`, so it ends exactly at t + h. The plant keeps no time of its own.
 //! 3. Outputs follow from the state at t + h; forces are means over the last substep. No output depends on an input set
 //!    after the step: there is no direct feedthrough.

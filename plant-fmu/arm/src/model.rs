@@ -3,8 +3,8 @@
 use crate::ExoskeletonArm;
 use crate::force_sensor::Reading;
 use crate::rows::{Outputs, RigidBody};
-use export::access::check_parameters;
-use export::{Clock, Log, Model, Refusal, Step};
+use fmu_export::access::check_parameters;
+use fmu_export::{Clock, Log, Model, Refusal, Step};
 use mechanics::arm::surface::TooStiff;
 use mechanics::arm::{Arm, Inputs, Parameters, Start};
 use nalgebra::{Matrix3, Vector3};

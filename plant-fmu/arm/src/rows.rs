@@ -3,7 +3,7 @@
 
 use crate::encoder::Encoder;
 use crate::force_sensor::{ForceSensor, Reading};
-use declaration::{Declare, Description, Experiment, Rows, Start, Stepping};
+use fmu_declaration::{Declare, Description, Experiment, Rows, Start, Stepping};
 use mechanics::arm::{self, Arm, Energy, Inputs, Parameters};
 use serde::{Deserialize, Serialize};
 

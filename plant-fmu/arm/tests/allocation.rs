@@ -2,7 +2,7 @@
 
 use counting::{Counting, allocations};
 use exoskeleton_arm::ExoskeletonArm;
-use export::{Log, Model, Step};
+use fmu_export::{Log, Model, Step};
 
 #[global_allocator]
 static ALLOCATOR: Counting = Counting;

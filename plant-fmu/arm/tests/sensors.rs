@@ -8,7 +8,7 @@ use exoskeleton_arm::ExoskeletonArm;
 use exoskeleton_arm::encoder::{JOINT, MOTOR};
 use exoskeleton_arm::force_sensor::{BASE, DROPOUT, NAN, OVER_RANGE, SENSOR, STUCK};
 use exoskeleton_arm::noise::normal;
-use export::{Clock, Log, Model, Step};
+use fmu_export::{Clock, Log, Model, Step};
 use nalgebra::{Matrix3, Vector3};
 
 #[test]

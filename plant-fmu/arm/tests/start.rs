@@ -3,9 +3,9 @@
 mod arm;
 
 use arm::{started, started_at};
-use declaration::{Access, Causality, Declare, Variable};
 use exoskeleton_arm::{ExoskeletonArm, encoder, force_sensor};
-use export::{Log, Model};
+use fmu_declaration::{Access, Causality, Declare, Variable};
+use fmu_export::{Log, Model};
 use mechanics::ParameterError;
 use std::collections::BTreeSet;
 

@@ -5,7 +5,7 @@ mod arm;
 use arm::{bytes, run, started, step};
 use exoskeleton_arm::ExoskeletonArm;
 use exoskeleton_arm::force_sensor::SENSOR;
-use export::{Log, Model, Step};
+use fmu_export::{Log, Model, Step};
 
 /// Falls on the table within 20 ms and slides on it toward the wall, with noise.
 fn busy(substep: f64) -> ExoskeletonArm {

@@ -9,7 +9,7 @@
 //! on the arms, positive along the axis.
 //!
 //! ```
-//! use export::{Log, Model, Step};
+//! use fmu_export::{Log, Model, Step};
 //! use exoskeleton_arms::ExoskeletonArms;
 //!
 //! let mut arms = ExoskeletonArms::default();
@@ -24,7 +24,7 @@
 //! let shown = arms.outputs;
 //! assert!(shown.attached && shown.right.p[2] > -0.24); // … and comes along
 //! assert!(shown.gap < 1e-5 && shown.lambda[2] < 0.0);
-//! # Ok::<(), export::Refusal>(())
+//! # Ok::<(), fmu_export::Refusal>(())
 //! ```
 //!
 //! | variable | symbol | equation | item |

@@ -3,8 +3,8 @@
 use crate::ExoskeletonArms;
 use crate::rows::{Inputs, Outputs, Side};
 use exoskeleton_arm::model::{check_payload, tell};
-use export::access::check_parameters;
-use export::{Log, Model, Refusal, Step};
+use fmu_export::access::check_parameters;
+use fmu_export::{Log, Model, Refusal, Step};
 use mechanics::arm::Arm;
 use mechanics::pair::Pair;
 use nalgebra::Vector3;

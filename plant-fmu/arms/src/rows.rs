@@ -1,7 +1,7 @@
 //! The variables, one row each: those of the mechanics, and what the FMU has besides. A row's number decides its value
 //! reference: new ones take the next.
 
-use declaration::{Declare, Description, Experiment, Rows, Start, Stepping};
+use fmu_declaration::{Declare, Description, Experiment, Rows, Start, Stepping};
 use mechanics::arm;
 use mechanics::pair::{Balance, Pair, Parameters};
 use serde::{Deserialize, Serialize};

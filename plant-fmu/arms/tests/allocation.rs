@@ -2,7 +2,7 @@
 
 use counting::{Counting, allocations};
 use exoskeleton_arms::ExoskeletonArms;
-use export::{Log, Model, Step};
+use fmu_export::{Log, Model, Step};
 use mechanics::arm::Inputs;
 
 #[global_allocator]

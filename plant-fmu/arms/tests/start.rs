@@ -3,10 +3,10 @@
 mod arms;
 
 use arms::{run, started, tried};
-use declaration::{Access, Causality, Declare, Variable};
 use exoskeleton_arm::ExoskeletonArm;
 use exoskeleton_arms::ExoskeletonArms;
-use export::{Log, Model};
+use fmu_declaration::{Access, Causality, Declare, Variable};
+use fmu_export::{Log, Model};
 use std::collections::BTreeSet;
 
 #[test]

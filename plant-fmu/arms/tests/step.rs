@@ -5,7 +5,7 @@ mod arms;
 use arms::{run, started};
 use exoskeleton_arm::ExoskeletonArm;
 use exoskeleton_arms::ExoskeletonArms;
-use export::{Log, Model, Step};
+use fmu_export::{Log, Model, Step};
 
 /// 20 kg on both pads, the left arm lifting more than the right one.
 fn lifting() -> ExoskeletonArms {

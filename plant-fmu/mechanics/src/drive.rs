@@ -1,6 +1,6 @@
 //! A position drive: an actuator that closes its own PI loop around commanded position and velocity.
 
-use declaration::{Rows, Start};
+use fmu_declaration::{Rows, Start};
 
 /// The drive's loop, with a limit on its force.
 ///

@@ -1,7 +1,7 @@
 //! Where the energy is, where it came from, where it went.
 
 use crate::Sum;
-use declaration::Rows;
+use fmu_declaration::Rows;
 
 /// Energy that crossed the plant's boundaries in one substep (J).
 ///

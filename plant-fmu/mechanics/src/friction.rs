@@ -1,7 +1,7 @@
 //! Coulomb friction, set-valued, with viscous friction.
 
 use crate::{FLOOR, Sum};
-use declaration::{Rows, Start};
+use fmu_declaration::{Rows, Start};
 
 /// Friction of one axis. On the moving part acts τ_f, with −τ_f ∈ F_c Sgn(v) + b v, Sgn(0) = \[−1, 1\].
 ///

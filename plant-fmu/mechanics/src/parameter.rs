@@ -1,8 +1,8 @@
 //! What a parameter may be: the range that its row says, checked when a plant is built.
 
 use core::fmt;
-use declaration::check::{self, Objection};
-use declaration::{Access, Causality, Rows, compose};
+use fmu_declaration::check::{self, Objection};
+use fmu_declaration::{Access, Causality, Rows, compose};
 
 /// What a value may be: the range of its row, or the part of it that other parameters leave.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -7,7 +7,7 @@ use crate::friction::Friction;
 use crate::parameter::{ParameterError, in_range};
 use crate::substep::substep;
 use crate::wall::Wall;
-use declaration::{Rows, Start};
+use fmu_declaration::{Rows, Start};
 
 /// Forces on the mass, positive along +q (N), held over a run of substeps.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Rows)]

@@ -1,7 +1,7 @@
 //! Unilateral Kelvin–Voigt contact whose surface has a deflection of its own.
 
 use crate::FLOOR;
-use declaration::{Rows, Start};
+use fmu_declaration::{Rows, Start};
 
 /// A wall at `q` that pushes back along −q when a body presses its surface in by s ≥ 0.
 ///

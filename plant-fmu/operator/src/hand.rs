@@ -2,7 +2,7 @@
 
 use crate::history::{History, Sample};
 use crate::target::Motion;
-use export::Refusal;
+use fmu_export::Refusal;
 use serde::{Deserialize, Serialize};
 
 /// A hand with a stiffness `k_h` and a damping `b_h` along each axis and a reflex delay.

@@ -1,6 +1,6 @@
 //! What the hand felt: motion of the handle during the last reflex delay.
 
-use export::Refusal;
+use fmu_export::Refusal;
 use serde::{Deserialize, Serialize};
 
 /// Position and velocity at an instant.

@@ -3,7 +3,7 @@
 //! The force is that of the human *on the robot*, base frame (x forward, y left, z up), positive along the axis.
 //!
 //! ```
-//! use export::{Log, Model, Step};
+//! use fmu_export::{Log, Model, Step};
 //! use human_operator::HumanOperator;
 //!
 //! let mut human = HumanOperator { k_h: 200.0, ..HumanOperator::default() };
@@ -18,7 +18,7 @@
 //! human.inputs.p[0] += 0.01; // where the handle is at the end of the step
 //! human.step(Step::at(0.0, 0.25), &mut Log::silent())?;
 //! assert!((human.outputs.f_h[0] + 2.0).abs() < 1e-12 && human.outputs.f_h[2] == -3.0);
-//! # Ok::<(), export::Refusal>(())
+//! # Ok::<(), fmu_export::Refusal>(())
 //! ```
 //!
 //! | symbol | equation | unit | item |
@@ -29,10 +29,10 @@
 //! | f_hand | k_h (p_target − p(t − delay)) − b_h (dp(t − delay) − dp_target), 0 from let_go on | N | [`hand::Hand::force`] |
 //! | p_target | p_intended + a sine, a minimum jerk from point to point, or a table | m | [`target::Target::at`] |
 //!
-//! 1. [`initialize`](export::Model::initialize) shows the force at the start time, with the inputs as they are then.
+//! 1. [`initialize`](fmu_export::Model::initialize) shows the force at the start time, with the inputs as they are then.
 //!    p = 0 on all axes counts as not there yet, as in an importer that exchanges nothing during initialization: the hand
 //!    then takes hold at the first step. From the shoulder, where 0 is, it would pull with 50 N at k_h = 100 N/m.
-//! 2. [`step`](export::Model::step) from t to t + h shows the force at t + h. The inputs set before it count as those at
+//! 2. [`step`](fmu_export::Model::step) from t to t + h shows the force at t + h. The inputs set before it count as those at
 //!    t + h: step the arm first, hand its `p` and `dp` over, then step the human.
 //!
 //! | module | what |

@@ -5,8 +5,8 @@ use crate::hand::Hand;
 use crate::history::Sample;
 use crate::profile::{self, Segment};
 use crate::rows::{Inputs, Outputs};
-use export::access::check_parameters;
-use export::{Clock, Log, Model, Refusal, Step};
+use fmu_export::access::check_parameters;
+use fmu_export::{Clock, Log, Model, Refusal, Step};
 
 impl Model for HumanOperator {
     fn initialize(&mut self, start_time: f64, _log: &mut Log<'_>) -> Result<(), Refusal> {

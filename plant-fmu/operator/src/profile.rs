@@ -1,6 +1,6 @@
 //! The plan: summed segments, each a sine or a constant in a window with ramps.
 
-use declaration::{Enumeration, Item, Rows, Start};
+use fmu_declaration::{Enumeration, Item, Rows, Start};
 use serde::{Deserialize, Serialize};
 
 /// Number of segments.

@@ -4,7 +4,7 @@ use crate::hand::Hand;
 use crate::history::DELAY_MAX;
 use crate::profile::{SEGMENTS, Segment};
 use crate::target::Target;
-use declaration::{Declare, Description, Experiment, Rows, Start, Stepping};
+use fmu_declaration::{Declare, Description, Experiment, Rows, Start, Stepping};
 use serde::{Deserialize, Serialize};
 
 /// What the planned force depends on.

@@ -1,7 +1,7 @@
 //! The moving target: how far the place where the hand wants to be is from where it took hold, and how fast it moves.
 
 use crate::profile::SAME_INSTANT;
-use declaration::{Enumeration, Item, Rows, Start};
+use fmu_declaration::{Enumeration, Item, Rows, Start};
 use serde::{Deserialize, Serialize};
 
 /// Number of points.

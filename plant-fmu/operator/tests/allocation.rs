@@ -1,7 +1,7 @@
 //! The step uses no heap.
 
 use counting::{Counting, allocations};
-use export::{Log, Model, Step};
+use fmu_export::{Log, Model, Step};
 use human_operator::HumanOperator;
 
 #[global_allocator]

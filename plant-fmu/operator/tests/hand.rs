@@ -1,6 +1,6 @@
 //! The impedance hand against its closed form.
 
-use export::{Log, Model, Step};
+use fmu_export::{Log, Model, Step};
 use human_operator::HumanOperator;
 use human_operator::rows::Inputs;
 

@@ -1,7 +1,7 @@
 //! The planned force against its closed form.
 
 use core::f64::consts::PI;
-use export::{Log, Model, Step};
+use fmu_export::{Log, Model, Step};
 use human_operator::HumanOperator;
 use human_operator::profile::{CONSTANT, SINE, window};
 

@@ -1,7 +1,7 @@
 //! Refusals that name variable, value and what was expected; declared dependencies and names.
 
-use declaration::{Access, Causality, Declare, Variable};
-use export::{Log, Model};
+use fmu_declaration::{Access, Causality, Declare, Variable};
+use fmu_export::{Log, Model};
 use human_operator::HumanOperator;
 use human_operator::rows::Inputs;
 use human_operator::target::{Point, SINE, TABLE};

@@ -1,6 +1,6 @@
 //! The moving target of the hand, and what the hand does with it axis by axis.
 
-use export::{Log, Model, Step};
+use fmu_export::{Log, Model, Step};
 use human_operator::HumanOperator;
 use human_operator::rows::Inputs;
 use human_operator::target::{MINIMUM_JERK, Motion, Point, SINE, TABLE, Target};

@@ -4,7 +4,7 @@
 //! besides and steps the plant. Every force acts on the mass and is positive along +q, toward the wall.
 //!
 //! ```
-//! use export::{Log, Model, Step};
+//! use fmu_export::{Log, Model, Step};
 //! use testbed::Testbed;
 //!
 //! let mut plant = Testbed::default();
@@ -14,11 +14,11 @@
 //! let (shown, parameters) = (plant.outputs, plant.parameters);
 //! assert!(shown.q > parameters.wall.q && shown.tau_e < 0.0); // it leans on the wall …
 //! assert!(shown.tau_e + plant.forces.tau_h >= -parameters.friction.F_c); // … within friction
-//! # Ok::<(), export::Refusal>(())
+//! # Ok::<(), fmu_export::Refusal>(())
 //! ```
 //!
-//! 1. Parameters are checked by [`initialize`](export::Model::initialize); the outputs then show the start state.
-//! 2. [`step`](export::Model::step) holds the inputs and splits the communication step into equal substeps no longer
+//! 1. Parameters are checked by [`initialize`](fmu_export::Model::initialize); the outputs then show the start state.
+//! 2. [`step`](fmu_export::Model::step) holds the inputs and splits the communication step into equal substeps no longer
 //!    than `substep`, so it ends exactly at t + h. The plant keeps no time of its own.
 //!    With `drive.mode` = 2 the actuator is a position drive that takes `q_d` and `dq_d` and closes its loop every substep.
 //! 3. Outputs follow from the state at t + h; forces (`tau_f`, `tau_e`) are means over the last substep. No output

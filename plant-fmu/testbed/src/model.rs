@@ -2,7 +2,7 @@
 
 use crate::Testbed;
 use crate::rows::{Outputs, POSITION_SERVO, TORQUE};
-use export::{Log, Model, Refusal, Step};
+use fmu_export::{Log, Model, Refusal, Step};
 use mechanics::parameter::in_range;
 use mechanics::testbed::{self as plant, Forces};
 use mechanics::wall::Wall;

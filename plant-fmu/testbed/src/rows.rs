@@ -1,7 +1,7 @@
 //! The variables, one row each: those of the mechanics, and what the FMU has besides. A row's number decides its value
 //! reference: new ones take the next.
 
-use declaration::{Declare, Description, Experiment, Rows, Start, Stepping, choices};
+use fmu_declaration::{Declare, Description, Experiment, Rows, Start, Stepping, choices};
 use mechanics::Energy;
 use mechanics::drive::{Command, Drive};
 use mechanics::testbed::{self as plant, Forces, Parameters};

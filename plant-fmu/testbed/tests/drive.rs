@@ -2,7 +2,7 @@
 
 #![allow(non_snake_case, reason = "the paper's symbols")]
 
-use export::{Log, Model, Step};
+use fmu_export::{Log, Model, Step};
 use mechanics::drive::Command;
 use mechanics::friction::Friction;
 use mechanics::testbed::Forces;

@@ -1,7 +1,7 @@
 //! Right after initialization: the start state, and refusals that name variable, value and range.
 
-use declaration::{Access, Causality, Declare, Variable};
-use export::{Log, Model};
+use fmu_declaration::{Access, Causality, Declare, Variable};
+use fmu_export::{Log, Model};
 use mechanics::Energy;
 use mechanics::testbed::{Forces, Start};
 use testbed::Testbed;

@@ -1,6 +1,6 @@
 //! Communication steps: any length, exact ends, inputs held, state saved and restored.
 
-use export::{Log, Model, Step};
+use fmu_export::{Log, Model, Step};
 use mechanics::testbed::{Forces, Start};
 use mechanics::wall::Wall;
 use testbed::Testbed;

@@ -4,13 +4,13 @@
 use catalogue::models::*;
 use catalogue::table::SETTINGS;
 use counting::{Counting, allocations};
-use declaration::Causality;
-use export::ffi::{CO_SIMULATION, Callbacks, Component, Status};
-use export::functions as f;
-use export::legality::Function;
-use export::model::Model;
-use model_description::Interface;
-use model_description::entry::Kind;
+use fmu_archive::Interface;
+use fmu_archive::entry::Kind;
+use fmu_declaration::Causality;
+use fmu_export::ffi::{CO_SIMULATION, Callbacks, Component, Status};
+use fmu_export::functions as f;
+use fmu_export::legality::Function;
+use fmu_export::model::Model;
 use std::ffi::CString;
 
 #[global_allocator]

@@ -65,8 +65,8 @@ fn laws_and_physics_depend_on_mathematics_and_the_rows_of_their_parameters_only(
                 package,
                 "nalgebra",
                 "libm",
-                "declaration",
-                "declaration-derive",
+                "fmu-declaration",
+                "fmu-declaration-derive",
             ];
             assert!(
                 allowed.contains(&name.as_str()),
@@ -74,7 +74,7 @@ fn laws_and_physics_depend_on_mathematics_and_the_rows_of_their_parameters_only(
             );
         }
         // Nor does anything reach them through nalgebra.
-        assert_eq!(ours(package), ["declaration"], "{package}");
+        assert_eq!(ours(package), ["fmu-declaration"], "{package}");
         for name in dependencies(package, false) {
             assert!(!name.starts_with("serde"), "{package} depends on {name}");
         }
@@ -83,14 +83,14 @@ fn laws_and_physics_depend_on_mathematics_and_the_rows_of_their_parameters_only(
 
 #[test]
 fn the_export_depends_on_the_declaration_and_on_no_model() {
-    assert_eq!(ours("export"), ["declaration"]);
-    let all = dependencies("export", false);
+    assert_eq!(ours("fmu-export"), ["fmu-declaration"]);
+    let all = dependencies("fmu-export", false);
     assert!(!all.iter().any(|name| name == "nalgebra"), "{all:?}");
 }
 
 #[test]
 fn the_declaration_and_the_list_depend_on_nothing_of_ours() {
-    assert_eq!(ours("declaration"), [""; 0]);
+    assert_eq!(ours("fmu-declaration"), [""; 0]);
     assert_eq!(dependencies("fmus", false), ["fmus"]);
 }
 
@@ -131,7 +131,7 @@ fn the_c_library_depends_on_the_laws_and_on_mathematics_only() {
         let laws = ["admittance", "arm-law"].map(|law| format!("{law}{suffix}"));
         for name in dependencies(package, true) {
             assert!(
-                [package, "nalgebra", "declaration"].contains(&name.as_str())
+                [package, "nalgebra", "fmu-declaration"].contains(&name.as_str())
                     || laws.contains(&name),
                 "{package} depends on {name}"
             );

@@ -1,6 +1,6 @@
 //! The loop in native Rust: against the linked models, and its command line.
 
-use export::{Log, Model, Step};
+use fmu_export::{Log, Model, Step};
 use std::path::Path;
 use std::process::{Command, Output};
 use testbed::Testbed;

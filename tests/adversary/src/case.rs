@@ -4,7 +4,7 @@ use crate::genes::{Genes, Reader};
 use crate::random::Random;
 use crate::subject::Setup;
 use admittance::{Bounds, Gains, Law, Reach, Settings};
-use declaration::range::SMALLEST;
+use fmu_declaration::range::SMALLEST;
 use nalgebra::SVector;
 
 /// How the robot is moved for a while.

@@ -15,7 +15,7 @@ use admittance::{Axes, Bounds, Gains, ParameterError, Request};
 use arm_law::handle::HandleTick;
 use arm_law::joint_space::{JointParameters, JointServo, Nominal};
 use arm_law::kinematics::Kinematics;
-use declaration::range::SMALLEST;
+use fmu_declaration::range::SMALLEST;
 use nalgebra::{Matrix3, SVector, Vector3};
 
 /// What drives are told.

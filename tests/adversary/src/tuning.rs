@@ -2,7 +2,7 @@
 
 use crate::random::Random;
 use admittance::Gains;
-use declaration::range::SMALLEST;
+use fmu_declaration::range::SMALLEST;
 
 /// Gains on their way.
 #[derive(Clone, Debug)]

@@ -1,9 +1,9 @@
 //! The `fmi` crate reads the description of every FMU. What it refuses although it is valid is shown beside.
 
 use catalogue::models::*;
-use declaration::{Causality, Declare, provenance};
 use fmi::schema::fmi2::{Causality as Read, Fmi2ModelDescription};
 use fmi::traits::FmiImport as _;
+use fmu_declaration::{Causality, Declare, provenance};
 use importers::imported::{import, variables};
 use std::path::Path;
 use std::str::FromStr as _;

@@ -1,9 +1,9 @@
 //! The `fmi` crate couples the built FMUs; the models linked into this test do the same without FMI.
 
-use declaration::place::Place;
-use declaration::{Access, Causality, Declare};
-use export::{Log, Model, Step};
 use fmi::fmi2::instance::{CoSimulation as _, Common as _};
+use fmu_declaration::place::Place;
+use fmu_declaration::{Access, Causality, Declare};
+use fmu_export::{Log, Model, Step};
 use importers::{Imported, Type};
 use testbed::Testbed;
 use testbed_controller::TestbedController;

@@ -83,7 +83,7 @@ impl Plan {
         for (package, name) in fmus::ALL
             .iter()
             .map(|fmu| (fmu.package(), fmu.name))
-            .chain([("export".to_owned(), LAG)])
+            .chain([("fmu-export".to_owned(), LAG)])
             .filter(|(_, name)| only.is_none_or(|only| only == *name))
         {
             command.args(["--package", &package, "--example", name]);

@@ -1,7 +1,7 @@
 //! The faults of sensed positions by number, name and sentence.
 
 use core::fmt::{Display, Formatter};
-use declaration::{Enumeration, Item};
+use fmu_declaration::{Enumeration, Item};
 
 /// What is wrong with the positions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

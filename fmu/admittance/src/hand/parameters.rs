@@ -3,8 +3,8 @@
 use crate::parameters::{check, in_range};
 use crate::real::{consts::TAU, exp_m1};
 use crate::{ParameterError, Real};
-use declaration::range::POSITIVE;
-use declaration::{Rows, Start};
+use fmu_declaration::range::POSITIVE;
+use fmu_declaration::{Rows, Start};
 
 /// Samples that half a period of `f_high` has at least.
 const FEWEST_SAMPLES: Real = 4.0;

@@ -5,7 +5,7 @@ use super::parameters::Checked;
 use crate::servo::{self, Command, Fault, Servo};
 use crate::tick::{Refused, Tick};
 use crate::{Admittance, Axes, Bounds, Gains, Ledger, ParameterError, Real, Request};
-use declaration::choices;
+use fmu_declaration::choices;
 use nalgebra::Vector1;
 
 choices! { FORM "Form" "What the robot gets from the controller":

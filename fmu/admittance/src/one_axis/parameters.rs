@@ -7,7 +7,7 @@ use crate::law::LAW;
 use crate::one_axis::form::{FORM, POSITION_SERVO, TORQUE};
 use crate::parameters::{in_range, tunable_in_range};
 use crate::{Bounds, Gains, Law, ParameterError, Reach, Real, Settings};
-use declaration::{Rows, Start};
+use fmu_declaration::{Rows, Start};
 use nalgebra::Vector1;
 
 /// Parameters of the law of one axis. Any bits may come from C: what cannot be used is refused by name.

@@ -5,7 +5,7 @@ use crate::Real;
 use crate::encoder::FAULT;
 use crate::servo;
 use crate::timing::TIMING;
-use declaration::{Rows, Start};
+use fmu_declaration::{Rows, Start};
 
 /// What is sensed and asked for at a tick.
 #[derive(Clone, Copy, Debug, PartialEq, Rows, Start)]

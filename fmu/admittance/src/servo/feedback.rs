@@ -18,7 +18,7 @@ use super::Drive;
 use crate::Real;
 use crate::real::{self, floored};
 use core::fmt::{Display, Formatter};
-use declaration::{Enumeration, Item};
+use fmu_declaration::{Enumeration, Item};
 use nalgebra::SVector;
 
 /// Time constant of the low pass on the forces, s.

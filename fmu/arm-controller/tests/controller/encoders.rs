@@ -6,7 +6,7 @@ use admittance::encoder::Fault;
 use arm_law::choices::DEBT;
 use arm_law::kinematics::Kinematics;
 use arm_law::supervision::{Diagnostic, State};
-use export::Model;
+use fmu_export::Model;
 
 /// A push that moves the arm up.
 const PUSH: [f64; 3] = [2.0, 3.0, 8.0];
@@ -223,7 +223,7 @@ fn no_torque_for_want_of_energy_is_a_state_of_its_own() {
 #[test]
 fn the_start_shows_angles_over_range_by_name() {
     let mut c = crate::controller(|c| c.inputs.q[1] = 8.0);
-    c.initialize(0.0, &mut export::Log::silent())
+    c.initialize(0.0, &mut fmu_export::Log::silent())
         .expect("they may be wired later");
     assert_eq!(c.outputs.encoder_fault, Fault::OverRange.number());
 }

@@ -2,7 +2,7 @@
 
 use crate::robot::{Robot, close_the_loop};
 use crate::{ArmController, T, initialized, tick};
-use export::{Log, Model};
+use fmu_export::{Log, Model};
 use nalgebra::Vector3;
 
 /// Pushed with `f_h` (N) for `ticks` ticks on the crude arm; `see` is shown every tick.

@@ -3,7 +3,7 @@
 use crate::robot::{Robot, close_the_loop};
 use crate::{ArmController, controller, initialized, tick};
 use arm_law::nominal::NominalArm;
-use export::{Log, Model};
+use fmu_export::{Log, Model};
 use nalgebra::{Matrix3, Vector3};
 
 const JOINT: i32 = 2;

@@ -21,7 +21,7 @@ mod tuning;
 mod workspace;
 
 use arm_controller::ArmController;
-use export::{Log, Model, Step};
+use fmu_export::{Log, Model, Step};
 
 /// Sample period of the default controller, s.
 const T: f64 = 0.001;

@@ -1,7 +1,7 @@
 //! What cannot be, and how it is said.
 
 use crate::{ArmController, controller, initialized};
-use export::{Log, Model, Step};
+use fmu_export::{Log, Model, Step};
 
 type Change = fn(&mut ArmController);
 

@@ -9,7 +9,7 @@ use arm_law::choices::{
 };
 use arm_law::supervision::{Diagnostic, State};
 use arm_law::wrench::{Fault, TareFailure, TareState};
-use declaration::{Access, Causality, Declare, Variability};
+use fmu_declaration::{Access, Causality, Declare, Variability};
 use std::collections::HashSet;
 
 #[test]
@@ -110,7 +110,7 @@ fn gains_and_f_max_are_tunable_and_the_rest_is_fixed() {
 
 #[test]
 fn enumerations_have_the_numbers_and_names_that_the_model_knows() {
-    let items = |of: declaration::Enumeration| -> Vec<_> {
+    let items = |of: fmu_declaration::Enumeration| -> Vec<_> {
         of.items
             .iter()
             .map(|item| (item.value, item.name))

@@ -2,7 +2,7 @@
 
 use crate::initialized;
 use arm_controller::ArmController;
-use export::{Log, Model, Step};
+use fmu_export::{Log, Model, Step};
 use mechanics::arm::drive::Drive as Lag;
 use mechanics::arm::{Arm, Inputs, Parameters, Start};
 use nalgebra::Vector3;

@@ -1,7 +1,7 @@
 //! Initialization and engaging.
 
 use crate::{ArmController, initialized, tick};
-use export::{Log, Model};
+use fmu_export::{Log, Model};
 
 const ZERO: [f64; 3] = [0.0; 3];
 

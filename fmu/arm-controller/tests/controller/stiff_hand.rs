@@ -3,7 +3,7 @@
 use crate::robot::{Robot, close_the_loop};
 use crate::{T, controller, initialized, tick};
 use arm_controller::ArmController;
-use export::{Log, Model};
+use fmu_export::{Log, Model};
 use nalgebra::Vector3;
 
 /// A hand of 1000 N/m that holds the handle where it is until `let_go` (s), after a push of 6 N upwards for 0.3 s. The swing

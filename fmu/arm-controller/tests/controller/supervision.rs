@@ -5,7 +5,7 @@ use crate::{controller, initialized, tick};
 use arm_controller::ArmController;
 use arm_law::kinematics::Kinematics;
 use arm_law::supervision::{Diagnostic, State};
-use export::{Log, Model};
+use fmu_export::{Log, Model};
 
 /// Supervised, ready for an edge of engage after the ticks from 0 to 101.
 fn ready(change: impl FnOnce(&mut ArmController)) -> (ArmController, u32) {

@@ -2,7 +2,7 @@
 
 use crate::{ArmController, initialized, step};
 use admittance::timing::{EARLY, IN_TIME, LATE};
-use export::{Clock, Model, Step};
+use fmu_export::{Clock, Model, Step};
 
 /// `steps` steps of `h` (s) with the sample period `T` (s) asked for.
 #[allow(non_snake_case, reason = "the paper's symbol")]
@@ -85,7 +85,8 @@ fn a_step_that_is_longer_than_those_before_is_a_late_tick_with_the_right_velocit
         let by = [0.5, -0.3, 0.2].map(|dq| dq * t); // rad
         c.inputs.q = core::array::from_fn(|i| start[i] + by[i]);
         let step = Step::at(t, h);
-        c.step(step, &mut export::Log::silent()).expect("a step");
+        c.step(step, &mut fmu_export::Log::silent())
+            .expect("a step");
         t += h;
     };
     for _ in 0..20 {

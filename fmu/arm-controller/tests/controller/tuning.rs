@@ -1,7 +1,7 @@
 //! Gains changed during the run.
 
 use crate::{ArmController, initialized, tick};
-use export::{Log, Model};
+use fmu_export::{Log, Model};
 
 /// Pushed down onto something that does not give way, until the spring is at its bound.
 fn pushed() -> ArmController {

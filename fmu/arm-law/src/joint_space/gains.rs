@@ -8,8 +8,8 @@ use admittance::bounds::boxed;
 use admittance::parameters::{check, limit};
 use admittance::retune::Gradual;
 use admittance::{Bounds, Gains, ParameterError, Real};
-use declaration::range::{NOT_NEGATIVE, POSITIVE};
-use declaration::{Rows, Start};
+use fmu_declaration::range::{NOT_NEGATIVE, POSITIVE};
+use fmu_declaration::{Rows, Start};
 use nalgebra::Vector3;
 
 /// What may be changed during a run.

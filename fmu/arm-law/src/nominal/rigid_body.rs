@@ -6,7 +6,7 @@
 use crate::kinematics::{Kinematics, SinCos, beta, sin_cos};
 use admittance::parameters::in_range;
 use admittance::{ParameterError, Real};
-use declaration::{Rows, Start};
+use fmu_declaration::{Rows, Start};
 use nalgebra::{Matrix3, Vector3};
 
 /// A link of the nominal arm, in the link's frame: origin on its joint's axis, x along it, z up when it is level.

@@ -2,9 +2,9 @@
 
 use admittance::parameters::{check, in_range};
 use admittance::{ParameterError, Real};
-use declaration::check::Expected;
-use declaration::range::POSITIVE;
-use declaration::{Rows, Start};
+use fmu_declaration::check::Expected;
+use fmu_declaration::range::POSITIVE;
+use fmu_declaration::{Rows, Start};
 
 /// What can be set. Times are rounded to whole ticks. The start values: half a second to engage and to stop, a heartbeat of
 /// 10 Hz or more, no hold but by request.

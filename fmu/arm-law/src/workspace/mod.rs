@@ -35,7 +35,7 @@ pub mod handle;
 
 use admittance::parameters::in_range;
 use admittance::{ParameterError, Real};
-use declaration::{Rows, Start};
+use fmu_declaration::{Rows, Start};
 
 pub use edges::Near;
 pub use handle::HandleAxes;

@@ -8,7 +8,7 @@ use super::{Fault, Frame, Mount, TareState, Tool, Wrench};
 use crate::choices::{FRAME, LINK_3, SOURCE, WRENCH};
 use admittance::parameters::in_range;
 use admittance::{ParameterError, Real, real};
-use declaration::{Rows, Start};
+use fmu_declaration::{Rows, Start};
 use nalgebra::{Matrix3, Vector3};
 
 /// What the sensor is like and what is made of its reading: the parameters `ft.*`. At the start a force in the base frame, as

@@ -2,7 +2,7 @@
 
 use admittance::parameters::check;
 use admittance::{ParameterError, Real, real};
-use declaration::range::FINITE;
+use fmu_declaration::range::FINITE;
 use nalgebra::{Matrix3, Vector3};
 
 /// Orientation of the sensor in link 3's frame.

@@ -16,7 +16,7 @@
 
 use super::{Fault, Wrench};
 use admittance::{Real, real};
-use declaration::{Rows, Start};
+use fmu_declaration::{Rows, Start};
 use nalgebra::Vector3;
 
 /// How far a tare has come.

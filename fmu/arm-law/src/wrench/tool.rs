@@ -3,7 +3,7 @@
 use super::Wrench;
 use admittance::parameters::in_range;
 use admittance::{ParameterError, Real};
-use declaration::{Rows, Start};
+use fmu_declaration::{Rows, Start};
 use nalgebra::{Matrix3, Vector3};
 
 /// Everything beyond the sensor that the hand does not carry: handle, adapter, half of the sensor. At the start there is none,

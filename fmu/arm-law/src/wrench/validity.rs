@@ -21,7 +21,7 @@
 
 use super::Wrench;
 use admittance::{Real, real};
-use declaration::{Rows, Start};
+use fmu_declaration::{Rows, Start};
 
 /// What is wrong with the sensor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

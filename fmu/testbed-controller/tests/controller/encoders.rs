@@ -88,7 +88,7 @@ fn in_servo_form_a_drive_whose_position_is_not_known_is_told_to_stand_where_it_l
 
 #[test]
 fn in_servo_form_a_measured_force_that_is_no_number_is_refused_by_name() {
-    use export::{Log, Model, Step};
+    use fmu_export::{Log, Model, Step};
     let mut c = initialized(|c| (c.parameters.form, c.inputs.tau_h) = (2, 2.0));
     tick(&mut c, 0);
     c.inputs.tau_a_measured = f64::NAN;

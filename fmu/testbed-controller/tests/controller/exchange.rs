@@ -2,7 +2,7 @@
 //! Who moves the robot knows the controller and looks ahead.
 
 use crate::initialized;
-use export::{Log, Model, Step};
+use fmu_export::{Log, Model, Step};
 use testbed_controller::TestbedController;
 
 /// Energy with which the tank starts, J.

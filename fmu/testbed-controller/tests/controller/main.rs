@@ -6,8 +6,8 @@ mod exchange;
 
 use admittance::law::LAW;
 use admittance::timing::IN_TIME;
-use declaration::{Access, Declare};
-use export::{Clock, Log, Model, Step};
+use fmu_declaration::{Access, Declare};
+use fmu_export::{Clock, Log, Model, Step};
 use testbed_controller::TestbedController;
 
 fn controller(change: impl FnOnce(&mut TestbedController)) -> TestbedController {

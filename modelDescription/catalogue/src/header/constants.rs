@@ -3,7 +3,7 @@
 
 use admittance::one_axis::{AxisInputs, AxisOutputs, AxisParameters};
 use arm_law::{ArmInputs, ArmOutputs, ArmParameters};
-use declaration::{Access, Enumeration, Rows};
+use fmu_declaration::{Access, Enumeration, Rows};
 use std::fmt::Write as _;
 
 /// A choice, and the variables that take its items.

@@ -21,8 +21,8 @@ use arm_law::supervision::Parameters;
 use arm_law::workspace::Workspace;
 use arm_law::wrench::{Sensor, Tool, tare::TareSettings, validity::Checks};
 use arm_law::{ArmInputs, ArmOutputs, ArmParameters};
-use declaration::unit::NONE;
-use declaration::{Access, Item, Rows};
+use fmu_declaration::unit::NONE;
+use fmu_declaration::{Access, Item, Rows};
 use std::collections::{BTreeMap, HashMap};
 use std::path::PathBuf;
 
@@ -45,7 +45,7 @@ pub fn headers() -> Result<[String; 2], String> {
 
 /// Before what depends on the precision: the version, and a constant for every item.
 fn preamble() -> String {
-    let version = model_description::VERSION;
+    let version = fmu_archive::VERSION;
     let numbers = ["MAJOR", "MINOR", "PATCH"];
     let parts = version.split(['.', '-', '+']).zip(numbers);
     let parts: Vec<_> = parts

@@ -190,7 +190,7 @@ pub fn constant(expression: &Expr, module: &str) -> TokenStream {
     let module = Ident::new(module, proc_macro2::Span::call_site());
     match expression {
         Expr::Path(path) if path.path.get_ident().is_some() => {
-            quote::quote!(::declaration::#module::#path)
+            quote::quote!(::fmu_declaration::#module::#path)
         }
         _ => quote::quote!(#expression),
     }

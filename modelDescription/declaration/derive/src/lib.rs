@@ -15,8 +15,8 @@
 //!
 //! | key | what | without it |
 //! |---|---|---|
-//! | `unit = NEWTON` | one of `declaration::unit` | 1 |
-//! | `range = POSITIVE`, `range = 0.0..=10.0` | one of `declaration::range`, or bounds | any number |
+//! | `unit = NEWTON` | one of `fmu_declaration::unit` | 1 |
+//! | `range = POSITIVE`, `range = 0.0..=10.0` | one of `fmu_declaration::range`, or bounds | any number |
 //! | `integers = 0..=1` | bounds of an integer | any |
 //! | `items = LAW` | an integer that is one of an `Enumeration`'s items | |
 //! | `boolean` | an `i32` that is 0 or 1 | |

@@ -52,10 +52,10 @@ pub fn derive(item: &DeriveInput) -> Result<TokenStream> {
                     Some(list @ Expr::Array(_)) => quote!(&#list),
                     Some(name) => quote!(#name),
                 };
-                counts.push(quote!(<#of as ::declaration::compose::Rows>::ROWS.len()));
+                counts.push(quote!(<#of as ::fmu_declaration::compose::Rows>::ROWS.len()));
                 writes.push(quote! {
-                    n = ::declaration::compose::lifted(&mut rows, n, <#of as ::declaration::compose::Rows>::ROWS,
-                        ::declaration::compose::Part {
+                    n = ::fmu_declaration::compose::lifted(&mut rows, n, <#of as ::fmu_declaration::compose::Rows>::ROWS,
+                        ::fmu_declaration::compose::Part {
                             offset: ::core::mem::offset_of!(Self, #field), each: #each, from: #from, prefix: #prefix, about: #about,
                         });
                 });
@@ -64,18 +64,18 @@ pub fn derive(item: &DeriveInput) -> Result<TokenStream> {
         }
     }
     Ok(quote! {
-        impl ::declaration::compose::Rows for #name {
-            const ROWS: &'static [::declaration::Variable<Self>] = {
+        impl ::fmu_declaration::compose::Rows for #name {
+            const ROWS: &'static [::fmu_declaration::Variable<Self>] = {
                 const N: usize = 0 #(+ #counts)*;
-                const SORTED: [::declaration::Variable<#name>; N] = ::declaration::compose::sorted(#name::rows_as_written());
+                const SORTED: [::fmu_declaration::Variable<#name>; N] = ::fmu_declaration::compose::sorted(#name::rows_as_written());
                 &SORTED
             };
         }
 
         impl #name {
             #[doc(hidden)]
-            const fn rows_as_written<const N: usize>() -> [::declaration::Variable<Self>; N] {
-                let mut rows = [::declaration::Variable::NOTHING; N];
+            const fn rows_as_written<const N: usize>() -> [::fmu_declaration::Variable<Self>; N] {
+                let mut rows = [::fmu_declaration::Variable::NOTHING; N];
                 let mut n = 0;
                 #(#writes)*
                 assert!(n == N);
@@ -94,9 +94,9 @@ fn row(field: &Ident, of: &Type, attribute: &Row, discrete: bool) -> Result<Toke
         Type::Path(path) => path.path.segments.last().map(|s| s.ident.to_string()),
         _ => None,
     };
-    let plain = quote!(::declaration::place::of_field(
+    let plain = quote!(::fmu_declaration::place::of_field(
         ::core::mem::offset_of!(Self, #field), |whole: &Self| &whole.#field));
-    let word = quote!(::declaration::place::of_word(
+    let word = quote!(::fmu_declaration::place::of_word(
         ::core::mem::offset_of!(Self, #field), |whole: &Self| &whole.#field));
     let (access, is_real) = match kind.as_deref() {
         Some("i32") if attribute.has("boolean") => (quote!(Boolean { at: #word }), false),
@@ -108,7 +108,7 @@ fn row(field: &Ident, of: &Type, attribute: &Row, discrete: bool) -> Result<Toke
                 quote!(Integer)
             };
             let access = quote!(Enumeration {
-                of: &#items, declared: ::declaration::Declared::#declared, at: #plain
+                of: &#items, declared: ::fmu_declaration::Declared::#declared, at: #plain
             });
             (access, false)
         }
@@ -124,11 +124,11 @@ fn row(field: &Ident, of: &Type, attribute: &Row, discrete: bool) -> Result<Toke
         Some(_) => {
             let unit = attribute
                 .key("unit")
-                .map_or(quote!(::declaration::unit::NONE), |unit| {
+                .map_or(quote!(::fmu_declaration::unit::NONE), |unit| {
                     constant(unit, "unit")
                 });
             let range = match attribute.key("range") {
-                None => quote!(::declaration::range::FINITE),
+                None => quote!(::fmu_declaration::range::FINITE),
                 Some(range @ Expr::Range(_)) => {
                     let (low, high) =
                         bounds(range, &quote!(f64::NEG_INFINITY), &quote!(f64::INFINITY))?;
@@ -138,7 +138,7 @@ fn row(field: &Ident, of: &Type, attribute: &Row, discrete: bool) -> Result<Toke
                         }
                         (low, high) => format!("{} to {}", joined(&low), joined(&high)),
                     };
-                    quote!(::declaration::Range::new(#low, #high, #words))
+                    quote!(::fmu_declaration::Range::new(#low, #high, #words))
                 }
                 Some(range) => constant(range, "range"),
             };
@@ -200,10 +200,10 @@ fn row(field: &Ident, of: &Type, attribute: &Row, discrete: bool) -> Result<Toke
     });
     let nan = attribute.has("nan").then(|| quote!(.may_be_nan()));
     Ok(quote! {
-        ::declaration::Variable::new(#name, ::declaration::Access::#access)
+        ::fmu_declaration::Variable::new(#name, ::fmu_declaration::Access::#access)
             .numbered(#number)
             .of_field(#field)
-            .#causality(::declaration::Variability::#variability)
+            .#causality(::fmu_declaration::Variability::#variability)
             .about(#about)
             #from
             #nan

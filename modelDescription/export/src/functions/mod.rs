@@ -1,4 +1,4 @@
-//! The C functions, generic over the model; [`fmi2!`](crate::fmi2) gives them their names.
+//! The C functions, generic over the model; [`export!`](crate::export) gives them their names.
 //!
 //! Every function here has the importer's contract of the standard as its safety contract: pointers are null or valid
 //! for what the standard says is read or written through them, a component is used by one thread at a time, and not

@@ -2,7 +2,7 @@
 #![allow(dead_code, reason = "each test file uses its part")]
 
 use exoskeleton_arm::ExoskeletonArm;
-use export::{Log, Model, Step};
+use fmu_export::{Log, Model, Step};
 
 /// The arm after `change`, initialized at `start_time`, or the text of the refusal.
 pub fn started_at(

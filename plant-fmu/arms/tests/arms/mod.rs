@@ -2,7 +2,7 @@
 #![allow(dead_code, reason = "each test file uses its part")]
 
 use exoskeleton_arms::ExoskeletonArms;
-use export::{Log, Model, Step};
+use fmu_export::{Log, Model, Step};
 
 /// The arms after `change`, initialized, or the text of the refusal.
 pub fn tried(change: impl FnOnce(&mut ExoskeletonArms)) -> Result<ExoskeletonArms, String> {

@@ -1,6 +1,6 @@
 //! The energy balance: what is stored, and the sums of what crossed the boundaries.
 
-use declaration::Rows;
+use fmu_declaration::Rows;
 
 use super::flow::Flow;
 use super::parameters::Parameters;

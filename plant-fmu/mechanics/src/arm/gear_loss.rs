@@ -1,6 +1,6 @@
 //! What a gear loses of the torque that it carries.
 
-use declaration::Rows;
+use fmu_declaration::Rows;
 
 /// Dry friction of a joint that grows with the torque τ its gear carries, beside that of [`Stribeck`](super::stribeck::Stribeck).
 /// A strain-wave gear loses a share of what goes in, and another one when the load drives the motor:

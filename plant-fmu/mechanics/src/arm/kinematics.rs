@@ -4,7 +4,7 @@
 //! pitch about −y, so that positive pitch lifts. The *yaw frame* is the base frame turned by q₁: the arm always lies in
 //! its x-z plane, at y = 0.
 
-use declaration::{Rows, Start};
+use fmu_declaration::{Rows, Start};
 use nalgebra::{Matrix3, Vector3};
 
 /// Lengths of the links and the points of link 3 where forces act.

@@ -2,7 +2,7 @@
 //! free in both FMUs of the arm: 54, and not 62 (ExoskeletonArm counts from 36 and ends at 88, ExoskeletonArms from 49; its
 //! outputs stand at 101, 102 and 111).
 
-use declaration::{Rows, Start};
+use fmu_declaration::{Rows, Start};
 
 use super::gear_loss::GearLoss;
 use super::kinematics::Lengths;

@@ -4,7 +4,7 @@
 //! wherever the pad presses next. One that hangs from the start on stays until the vacuum has been on: an input that nobody
 //! wired drops nothing.
 
-use declaration::{Rows, Start};
+use fmu_declaration::{Rows, Start};
 use nalgebra::Vector3;
 
 use super::flow::Flow;

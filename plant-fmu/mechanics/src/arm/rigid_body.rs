@@ -4,7 +4,7 @@
 //! couple with the pitch plane: M is block diagonal. Rotors count by their inertia about their own axis times the gear
 //! ratio squared; the gyroscopic torque of a rotor that is carried by a moving link is left out.
 
-use declaration::{Rows, Start};
+use fmu_declaration::{Rows, Start};
 use nalgebra::{Matrix3, Vector3};
 
 use super::kinematics::{InPlane, Lengths, Pose, Reach};

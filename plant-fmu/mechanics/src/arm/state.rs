@@ -1,6 +1,6 @@
 //! What goes into the arm, where it is, and what it shows.
 
-use declaration::Rows;
+use fmu_declaration::Rows;
 use nalgebra::Vector3;
 
 use super::kinematics::{Point, Pose};

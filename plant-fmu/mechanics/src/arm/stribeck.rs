@@ -1,6 +1,6 @@
 //! Dry friction of a geared joint that grips harder at rest, and viscous friction.
 
-use declaration::Rows;
+use fmu_declaration::Rows;
 
 /// Friction of one joint. On the joint acts τ_f, with −τ_f ∈ F(v) Sgn(v) + b v, Sgn(0) = \[−1, 1\] and
 ///

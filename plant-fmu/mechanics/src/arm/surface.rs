@@ -1,7 +1,7 @@
 //! The table under the arm and the wall in front of it.
 
 use crate::wall;
-use declaration::{Rows, Start};
+use fmu_declaration::{Rows, Start};
 
 /// A compliant plane with dry friction. Along the normal it is a [`Wall`](wall::Wall): pushes only, has a deflection of its
 /// own. In the plane friction opposes the pad's velocity w_t, rigidly:

@@ -1,6 +1,6 @@
 //! The stiffness of the payload between the pads, and the energy in it.
 
-use declaration::{Rows, Start};
+use fmu_declaration::{Rows, Start};
 use nalgebra::Vector3;
 
 use crate::Sum;

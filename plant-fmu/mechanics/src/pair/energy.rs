@@ -1,7 +1,7 @@
 //! The energy balance of both arms and of what ties them together.
 
 use crate::arm::Energy;
-use declaration::Rows;
+use fmu_declaration::Rows;
 
 /// Energy balance since the start (J).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Rows)]

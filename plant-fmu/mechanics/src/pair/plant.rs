@@ -1,6 +1,6 @@
 //! The two arms as a plant: built, run, read.
 
-use declaration::Rows;
+use fmu_declaration::Rows;
 use nalgebra::Vector3;
 
 use super::bond::{Bond, Ledger as BondLedger};

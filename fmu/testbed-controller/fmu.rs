@@ -4,4 +4,4 @@
     reason = "the library is named like the model, as the FMI standard asks"
 )]
 
-export::fmi2!(testbed_controller::TestbedController);
+fmu_export::export!(testbed_controller::TestbedController);

@@ -4,4 +4,4 @@
     reason = "the library is named like the model, as the FMI standard asks"
 )]
 
-export::fmi2!(testbed::Testbed);
+fmu_export::export!(testbed::Testbed);

@@ -4,4 +4,4 @@
     reason = "the library is named like the model, as the FMI standard asks"
 )]
 
-export::fmi2!(human_operator::HumanOperator);
+fmu_export::export!(human_operator::HumanOperator);

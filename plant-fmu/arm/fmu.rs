@@ -4,4 +4,4 @@
     reason = "the library is named like the model, as the FMI standard asks"
 )]
 
-export::fmi2!(exoskeleton_arm::ExoskeletonArm);
+fmu_export::export!(exoskeleton_arm::ExoskeletonArm);

@@ -4,4 +4,4 @@
     reason = "the library is named like the model, as the FMI standard asks"
 )]
 
-export::fmi2!(arm_controller::ArmController);
+fmu_export::export!(arm_controller::ArmController);
