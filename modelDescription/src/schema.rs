@@ -70,14 +70,19 @@ element! {
         #[serde(rename = "@kg", skip_serializing_if = "Option::is_none")] kg: Option<i8>,
         #[serde(rename = "@m", skip_serializing_if = "Option::is_none")] m: Option<i8>,
         #[serde(rename = "@s", skip_serializing_if = "Option::is_none")] s: Option<i8>,
+        #[serde(rename = "@A", skip_serializing_if = "Option::is_none")] ampere: Option<i8>,
+        #[serde(rename = "@K", skip_serializing_if = "Option::is_none")] kelvin: Option<i8>,
+        #[serde(rename = "@mol", skip_serializing_if = "Option::is_none")] mol: Option<i8>,
+        #[serde(rename = "@cd", skip_serializing_if = "Option::is_none")] cd: Option<i8>,
         #[serde(rename = "@rad", skip_serializing_if = "Option::is_none")] rad: Option<i8>,
     }
 }
 element! {
-    /// A unit for display: display value = factor · value.
+    /// A unit for display: display value = factor · value + offset.
     DisplayUnit {
         #[serde(rename = "@name")] name: Text,
         #[serde(rename = "@factor")] factor: Text,
+        #[serde(rename = "@offset", skip_serializing_if = "Option::is_none")] offset: Optional,
     }
 }
 element! {

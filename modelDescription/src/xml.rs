@@ -95,11 +95,16 @@ fn units(interface: &Interface) -> Option<UnitDefinitions> {
             kg: exponent(unit.base.kg),
             m: exponent(unit.base.m),
             s: exponent(unit.base.s),
+            ampere: exponent(unit.base.A),
+            kelvin: exponent(unit.base.K),
+            mol: exponent(unit.base.mol),
+            cd: exponent(unit.base.cd),
             rad: exponent(unit.base.rad),
         },
         display: unit.display.map(|d| DisplayUnit {
             name: d.name.into(),
             factor: double(d.factor),
+            offset: (d.offset != 0.0).then(|| double(d.offset)),
         }),
     };
     let list: Vec<_> = interface.units().into_iter().map(unit).collect();

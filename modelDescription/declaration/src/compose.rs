@@ -162,6 +162,17 @@ const fn in_whole<M, S>(row: &Variable<S>, part: Part) -> Variable<M> {
     }
 }
 
+/// The rows as they are written, with their places as numbers.
+#[doc(hidden)]
+pub const fn in_order<M, const N: usize>(mut rows: [Variable<M>; N]) -> [Variable<M>; N] {
+    let mut i = 0;
+    while i < N {
+        rows[i].number = i as u32;
+        i += 1;
+    }
+    rows
+}
+
 /// The rows in ascending order of their numbers.
 ///
 /// # Panics

@@ -1,6 +1,6 @@
 //! What identifies an interface.
 
-use crate::{Access, Declare, Description, provenance};
+use crate::{Access, Declare, Description, Unit, provenance};
 use core::fmt::Write as _;
 
 impl<M: Declare> Description<M> {
@@ -15,7 +15,7 @@ impl<M: Declare> Description<M> {
             let kind = match &v.access {
                 Access::Real { unit, range, at } => {
                     let (min, max) = (range.low, range.high);
-                    format!("{unit:?} {min} {max} {:?}", at.get(&start, i))
+                    format!("{} {min} {max} {:?}", of_unit(unit), at.get(&start, i))
                 }
                 Access::Integer { min, max, at } => {
                     format!("Integer {min} {max} {}", at.get(&start, i))
@@ -54,4 +54,32 @@ impl<M: Declare> Description<M> {
             .braced()
             .to_string()
     }
+}
+
+/// A unit as text. What came after the first guids stands in it only where it says something, so that they stay.
+fn of_unit(unit: &Unit) -> String {
+    let base = unit.base.exponents();
+    let early = |name: &str| ["kg", "m", "s", "rad"].contains(&name);
+    let first = base.iter().filter(|(name, _)| early(name));
+    let first: Vec<_> = first.map(|(name, n)| format!("{name}: {n}")).collect();
+    let display = unit.display.map_or("None".to_owned(), |display| {
+        format!(
+            "Some(Display {{ name: {:?}, factor: {:?} }})",
+            display.name, display.factor
+        )
+    });
+    let mut text = format!(
+        "Unit {{ name: {:?}, base: Base {{ {} }}, display: {display} }}",
+        unit.name,
+        first.join(", ")
+    );
+    for (name, n) in base {
+        if !early(name) && n != 0 {
+            let _ = write!(text, " {name}: {n}");
+        }
+    }
+    if let Some(display) = unit.display.filter(|display| display.offset != 0.0) {
+        let _ = write!(text, " offset: {:?}", display.offset);
+    }
+    text
 }

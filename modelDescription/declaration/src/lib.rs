@@ -53,7 +53,7 @@
 
 #![cfg_attr(not(feature = "std"), no_std)]
 
-extern crate self as declaration;
+extern crate self as fmu_declaration;
 
 pub mod check;
 pub mod compose;

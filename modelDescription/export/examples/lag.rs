@@ -2,9 +2,7 @@
 //!
 //! It is also the subject of the tests of the C interface (`tests/abi`), as a shared library.
 
-use fmu_declaration::{Declare, Description, Experiment, Rows, Start, Stepping, choices};
-use fmu_export::{Log, Model, Refusal, Step};
-use serde::{Deserialize, Serialize};
+use fmu_export::{Log, Model, Refusal, Step, choices, interface};
 use std::path::Path;
 
 choices! { METHOD "Method" "How the lag is integrated":
@@ -12,8 +10,8 @@ choices! { METHOD "Method" "How the lag is integrated":
     2 "implicit_euler" "implicit Euler";
 }
 
-/// tau dy/dt = gain·u − y
-#[derive(Clone, Serialize, Deserialize, Rows, Start)]
+/// First-order lag tau dy/dt = gain u - y
+#[interface(step = 0.01, stop = 2.0)]
 pub struct Lag {
     /// input
     #[input(0)]
@@ -42,21 +40,6 @@ pub struct Lag {
     /// where the importer unpacked the resources
     #[output(8)]
     resource_path: String,
-}
-
-impl Declare for Lag {
-    const DESCRIPTION: Description<Self> = Description {
-        name: "Lag",
-        about: "First-order lag tau dy/dt = gain u - y",
-        stepping: Stepping::Exact,
-        experiment: Experiment {
-            start: 0.0,
-            stop: 2.0,
-            tolerance: 1e-6,
-            step: 0.01,
-        },
-        variables: Self::ROWS,
-    };
 }
 
 impl Model for Lag {

@@ -1,7 +1,7 @@
 //! The FMI 2.0 co-simulation C interface of any model.
 //!
-//! A model is a struct whose fields are its variables ([`fmu_declaration`]) and which can be initialized and stepped
-//! ([`Model`]). [`export!`] turns it into the 34 C functions of the standard. This crate knows no robot; the smallest
+//! A model is a struct whose fields are its variables ([`interface`], [`declaration`]) and which can be initialized and
+//! stepped ([`Model`]). [`export!`] turns it into the 34 C functions of the standard. This crate knows no robot; the smallest
 //! model, an integrator, is in `examples/integrator.rs`.
 //!
 //! The life of a call, for every function alike:
@@ -33,6 +33,8 @@
 //! | [`resource`] | `fmuResourceLocation` as a path | 2.1.5 |
 //! | [`functions`] | the C functions, generic over the model | 2.1, 4.2 |
 
+extern crate self as fmu_export;
+
 pub mod access;
 pub mod clock;
 pub mod failure;
@@ -54,7 +56,12 @@ mod symbols;
 pub mod time;
 
 pub use clock::Clock;
+pub use fmu_declaration as declaration;
+pub use fmu_declaration::{Declare, Start, Unit, choices, compose::Rows, unit};
+#[doc(inline)]
+pub use fmu_declaration_derive::{ExportedRows as Rows, group, interface};
 pub use log::Log;
 pub use model::{Model, Refusal};
 pub use sampler::{Sample, Sampler};
+pub use serde;
 pub use time::Step;

@@ -1,26 +1,21 @@
 //! A model with a row of each kind, and a reader for what is written from it.
 #![allow(dead_code, reason = "each test file uses its part")]
 
-use fmu_declaration::unit::{Base, Display};
+use fmu_declaration::unit::Base;
 use fmu_declaration::{
     Access, Declare, Description, Enumeration, Experiment, Range, Rows, Start, Stepping, Unit,
     Variable, choices,
 };
 use std::collections::BTreeMap;
 
-pub const RADIAN: Unit = Unit {
-    name: "rad",
-    base: Base {
-        kg: 0,
-        m: 0,
-        s: 0,
+pub const RADIAN: Unit = Unit::new(
+    "rad",
+    Base {
         rad: 1,
+        ..Base::NONE
     },
-    display: Some(Display {
-        name: "deg",
-        factor: 57.295_779_513_082_32,
-    }),
-};
+)
+.shown_in("deg", 57.295_779_513_082_32, 0.0);
 
 choices! { MODE "Mode" "what \"it\" does":
     1 "idle" "nothing";

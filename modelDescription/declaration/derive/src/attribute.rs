@@ -21,7 +21,8 @@ pub enum Role {
 /// The attribute of a row.
 pub struct Row {
     pub causality: Ident,
-    pub number: LitInt,
+    /// None where the row's place counts.
+    pub number: Option<LitInt>,
     pub keys: Vec<(Ident, Option<Expr>)>,
     pub about: String,
 }
@@ -50,9 +51,10 @@ impl Row {
     }
 }
 
-/// Number and keys: `97, unit = SECOND, tunable`.
+/// Number and keys: `97, unit = SECOND, tunable`; the number may be missing.
+#[derive(Default)]
 struct Keys {
-    number: LitInt,
+    number: Option<LitInt>,
     keys: Vec<(Ident, Option<Expr>)>,
 }
 
@@ -75,12 +77,18 @@ const KNOWN: [&str; 14] = [
 
 impl Parse for Keys {
     fn parse(input: ParseStream<'_>) -> Result<Self> {
-        let number = input.parse()?;
+        let number = if input.peek(LitInt) {
+            Some(input.parse()?)
+        } else {
+            None
+        };
         let mut keys = Vec::new();
         while !input.is_empty() {
-            input.parse::<Token![,]>()?;
-            if input.is_empty() {
-                break;
+            if number.is_some() || !keys.is_empty() {
+                input.parse::<Token![,]>()?;
+                if input.is_empty() {
+                    break;
+                }
             }
             let key = input.call(Ident::parse_any)?;
             if !KNOWN.iter().any(|known| key == known) {
@@ -108,7 +116,10 @@ impl Role {
                 continue;
             };
             let found = if CAUSALITIES.iter().any(|causality| name == causality) {
-                let Keys { number, keys } = attribute.parse_args()?;
+                let Keys { number, keys } = match attribute.meta {
+                    Meta::Path(_) => Keys::default(),
+                    _ => attribute.parse_args()?,
+                };
                 Self::Row(Box::new(Row {
                     causality: name.clone(),
                     number,
@@ -152,7 +163,7 @@ fn part(attribute: &Attribute) -> Result<Part> {
 }
 
 /// The documentation as one sentence: lines joined, without the full stop at the end.
-fn about(attributes: &[Attribute]) -> String {
+pub fn about(attributes: &[Attribute]) -> String {
     let lines = attributes
         .iter()
         .filter_map(|attribute| match &attribute.meta {
@@ -185,12 +196,12 @@ pub fn is_discrete(attributes: &[Attribute]) -> Result<bool> {
     Ok(discrete)
 }
 
-/// An expression that is one name: a constant of `module` in `declaration`.
-pub fn constant(expression: &Expr, module: &str) -> TokenStream {
+/// An expression that is one name: a constant of `module` in the package `fmu-declaration`, whose path is `root`.
+pub fn constant(expression: &Expr, module: &str, root: &TokenStream) -> TokenStream {
     let module = Ident::new(module, proc_macro2::Span::call_site());
     match expression {
         Expr::Path(path) if path.path.get_ident().is_some() => {
-            quote::quote!(::fmu_declaration::#module::#path)
+            quote::quote!(#root::#module::#path)
         }
         _ => quote::quote!(#expression),
     }

@@ -1,10 +1,23 @@
 //! `#[derive(Rows)]`: the rows of a struct, from the attributes of its fields. `#[derive(Start)]`: its [`Default`].
 //!
+//! The attribute `#[interface(…)]` of the package `fmu-export` gives a struct both, and what else a model has: its
+//! description, `Clone` and serde's traits. `#[group]` does so for a struct that is a part of a model. The keys of
+//! `interface` are
+//!
+//! | key | what | without it |
+//! |---|---|---|
+//! | `step = 0.01` | communication step size, of a sampled model its period, s | must be there |
+//! | `start = 0.0`, `stop = 10.0` | the default experiment, s | 0 to 1 |
+//! | `tolerance = 1e-6` | of no effect; importers warn when it is missing | 1e-6 |
+//! | `sampled` | it runs ticks of a sample period; between them outputs hold | it integrates to the end of every step |
+//! | `name = "Tank"` | name of the model, a C identifier | the struct's |
+//! | `about = "…"` | one sentence | the struct's documentation |
+//!
 //! A field is a row if it bears one of
 //!
 //! | attribute | what |
 //! |---|---|
-//! | `#[input(n, …)]`, `#[output(n, …)]`, `#[parameter(n, …)]`, `#[calculated(n, …)]`, `#[local(n, …)]` | the row number n; the field's documentation is its description |
+//! | `#[input(n, …)]`, `#[output(n, …)]`, `#[parameter(n, …)]`, `#[calculated(n, …)]`, `#[local(n, …)]` | the row number n; the field's documentation is its description. All rows have numbers, or none has: then their places count |
 //! | `#[part]` | the rows of the struct in this field |
 //! | `#[part(each)]` | the field is an array of structs: their rows become vectors |
 //! | `#[part(from = 40)]` | the part's numbers count from there |
@@ -29,8 +42,10 @@
 //! | `typed` | the XML declares the enumeration as a type | as an Integer |
 
 use proc_macro::TokenStream;
+use quote::quote;
 
 mod attribute;
+mod interface;
 mod rows;
 mod start;
 
@@ -40,7 +55,21 @@ mod start;
     attributes(rows, input, output, parameter, calculated, local, part)
 )]
 pub fn rows(item: TokenStream) -> TokenStream {
-    rows::derive(&syn::parse_macro_input!(item as syn::DeriveInput))
+    rows_of(item, &quote!(::fmu_declaration))
+}
+
+/// The rows of a struct, in a crate that depends on `fmu-export` alone, which has this as its `Rows`.
+#[proc_macro_derive(
+    ExportedRows,
+    attributes(rows, input, output, parameter, calculated, local, part)
+)]
+pub fn exported_rows(item: TokenStream) -> TokenStream {
+    rows_of(item, &quote!(::fmu_export::declaration))
+}
+
+fn rows_of(item: TokenStream, root: &proc_macro2::TokenStream) -> TokenStream {
+    syn::parse::<syn::DeriveInput>(item)
+        .and_then(|item| rows::derive(&item, root))
         .unwrap_or_else(syn::Error::into_compile_error)
         .into()
 }
@@ -54,4 +83,21 @@ pub fn start(item: TokenStream) -> TokenStream {
     start::derive(&syn::parse_macro_input!(item as syn::DeriveInput))
         .unwrap_or_else(syn::Error::into_compile_error)
         .into()
+}
+
+/// A struct as a model's interface, in a crate that depends on `fmu-export`.
+#[proc_macro_attribute]
+pub fn interface(keys: TokenStream, item: TokenStream) -> TokenStream {
+    let item = syn::parse_macro_input!(item as syn::ItemStruct);
+    syn::parse::<interface::Whole>(keys)
+        .and_then(|whole| interface::interface(&whole, &item))
+        .unwrap_or_else(syn::Error::into_compile_error)
+        .into()
+}
+
+/// A struct whose rows are a part of a model's, in a crate that depends on `fmu-export`.
+#[proc_macro_attribute]
+pub fn group(_: TokenStream, item: TokenStream) -> TokenStream {
+    let item = syn::parse_macro_input!(item as syn::ItemStruct);
+    interface::group(&item).into()
 }

@@ -19,14 +19,20 @@ pub fn fields(item: &DeriveInput) -> Result<impl Iterator<Item = (&Ident, &Field
     }
 }
 
-pub fn derive(item: &DeriveInput) -> Result<TokenStream> {
+/// `root` is the path of the package `fmu-declaration`, as the struct's crate sees it.
+pub fn derive(item: &DeriveInput, root: &TokenStream) -> Result<TokenStream> {
     let name = &item.ident;
     let discrete = is_discrete(&item.attrs)?;
+    let order = if are_numbered(item)? {
+        quote!(sorted)
+    } else {
+        quote!(in_order)
+    };
     let (mut counts, mut writes) = (Vec::new(), Vec::new());
     for (field, declared) in fields(item)? {
         match Role::of(declared)? {
             Role::Row(attribute) => {
-                let row = row(field, &declared.ty, &attribute, discrete)?;
+                let row = row(field, &declared.ty, &attribute, discrete, root)?;
                 counts.push(quote!(1));
                 writes.push(quote! { rows[n] = #row; n += 1; });
             }
@@ -52,10 +58,10 @@ pub fn derive(item: &DeriveInput) -> Result<TokenStream> {
                     Some(list @ Expr::Array(_)) => quote!(&#list),
                     Some(name) => quote!(#name),
                 };
-                counts.push(quote!(<#of as ::fmu_declaration::compose::Rows>::ROWS.len()));
+                counts.push(quote!(<#of as #root::compose::Rows>::ROWS.len()));
                 writes.push(quote! {
-                    n = ::fmu_declaration::compose::lifted(&mut rows, n, <#of as ::fmu_declaration::compose::Rows>::ROWS,
-                        ::fmu_declaration::compose::Part {
+                    n = #root::compose::lifted(&mut rows, n, <#of as #root::compose::Rows>::ROWS,
+                        #root::compose::Part {
                             offset: ::core::mem::offset_of!(Self, #field), each: #each, from: #from, prefix: #prefix, about: #about,
                         });
                 });
@@ -64,18 +70,18 @@ pub fn derive(item: &DeriveInput) -> Result<TokenStream> {
         }
     }
     Ok(quote! {
-        impl ::fmu_declaration::compose::Rows for #name {
-            const ROWS: &'static [::fmu_declaration::Variable<Self>] = {
+        impl #root::compose::Rows for #name {
+            const ROWS: &'static [#root::Variable<Self>] = {
                 const N: usize = 0 #(+ #counts)*;
-                const SORTED: [::fmu_declaration::Variable<#name>; N] = ::fmu_declaration::compose::sorted(#name::rows_as_written());
+                const SORTED: [#root::Variable<#name>; N] = #root::compose::#order(#name::rows_as_written());
                 &SORTED
             };
         }
 
         impl #name {
             #[doc(hidden)]
-            const fn rows_as_written<const N: usize>() -> [::fmu_declaration::Variable<Self>; N] {
-                let mut rows = [::fmu_declaration::Variable::NOTHING; N];
+            const fn rows_as_written<const N: usize>() -> [#root::Variable<Self>; N] {
+                let mut rows = [#root::Variable::NOTHING; N];
                 let mut n = 0;
                 #(#writes)*
                 assert!(n == N);
@@ -85,7 +91,35 @@ pub fn derive(item: &DeriveInput) -> Result<TokenStream> {
     })
 }
 
-fn row(field: &Ident, of: &Type, attribute: &Row, discrete: bool) -> Result<TokenStream> {
+/// Whether the rows bear numbers: all do, or none does and their places count.
+fn are_numbered(item: &DeriveInput) -> Result<bool> {
+    let (mut numbered, mut bare) = (false, None);
+    for (_, declared) in fields(item)? {
+        match Role::of(declared)? {
+            Role::Row(row) => {
+                numbered |= row.number.is_some();
+                bare = bare.or(row.number.is_none().then_some(row.causality));
+            }
+            Role::Part(part) => numbered |= part.from.is_some(),
+            Role::State => {}
+        }
+    }
+    match bare {
+        Some(row) if numbered => Err(Error::new(
+            row.span(),
+            "this row has no number and others have: number all rows, or none",
+        )),
+        bare => Ok(numbered && bare.is_none()),
+    }
+}
+
+fn row(
+    field: &Ident,
+    of: &Type,
+    attribute: &Row,
+    discrete: bool,
+    root: &TokenStream,
+) -> Result<TokenStream> {
     let (element, is_vector) = match of {
         Type::Array(array) => (array.elem.as_ref(), true),
         other => (other, false),
@@ -94,9 +128,9 @@ fn row(field: &Ident, of: &Type, attribute: &Row, discrete: bool) -> Result<Toke
         Type::Path(path) => path.path.segments.last().map(|s| s.ident.to_string()),
         _ => None,
     };
-    let plain = quote!(::fmu_declaration::place::of_field(
+    let plain = quote!(#root::place::of_field(
         ::core::mem::offset_of!(Self, #field), |whole: &Self| &whole.#field));
-    let word = quote!(::fmu_declaration::place::of_word(
+    let word = quote!(#root::place::of_word(
         ::core::mem::offset_of!(Self, #field), |whole: &Self| &whole.#field));
     let (access, is_real) = match kind.as_deref() {
         Some("i32") if attribute.has("boolean") => (quote!(Boolean { at: #word }), false),
@@ -108,7 +142,7 @@ fn row(field: &Ident, of: &Type, attribute: &Row, discrete: bool) -> Result<Toke
                 quote!(Integer)
             };
             let access = quote!(Enumeration {
-                of: &#items, declared: ::fmu_declaration::Declared::#declared, at: #plain
+                of: &#items, declared: #root::Declared::#declared, at: #plain
             });
             (access, false)
         }
@@ -124,11 +158,11 @@ fn row(field: &Ident, of: &Type, attribute: &Row, discrete: bool) -> Result<Toke
         Some(_) => {
             let unit = attribute
                 .key("unit")
-                .map_or(quote!(::fmu_declaration::unit::NONE), |unit| {
-                    constant(unit, "unit")
+                .map_or(quote!(#root::unit::NONE), |unit| {
+                    constant(unit, "unit", root)
                 });
             let range = match attribute.key("range") {
-                None => quote!(::fmu_declaration::range::FINITE),
+                None => quote!(#root::range::FINITE),
                 Some(range @ Expr::Range(_)) => {
                     let (low, high) =
                         bounds(range, &quote!(f64::NEG_INFINITY), &quote!(f64::INFINITY))?;
@@ -138,9 +172,9 @@ fn row(field: &Ident, of: &Type, attribute: &Row, discrete: bool) -> Result<Toke
                         }
                         (low, high) => format!("{} to {}", joined(&low), joined(&high)),
                     };
-                    quote!(::fmu_declaration::Range::new(#low, #high, #words))
+                    quote!(#root::Range::new(#low, #high, #words))
                 }
-                Some(range) => constant(range, "range"),
+                Some(range) => constant(range, "range", root),
             };
             (
                 quote!(Real { unit: #unit, range: #range, at: #plain }),
@@ -185,7 +219,10 @@ fn row(field: &Ident, of: &Type, attribute: &Row, discrete: bool) -> Result<Toke
             quote!(#causality)
         }
     };
-    let number = &attribute.number;
+    let number = attribute
+        .number
+        .as_ref()
+        .map(|number| quote!(.numbered(#number)));
     let field = field.to_string();
     let about = attribute.key("about").map_or_else(
         || {
@@ -200,10 +237,10 @@ fn row(field: &Ident, of: &Type, attribute: &Row, discrete: bool) -> Result<Toke
     });
     let nan = attribute.has("nan").then(|| quote!(.may_be_nan()));
     Ok(quote! {
-        ::fmu_declaration::Variable::new(#name, ::fmu_declaration::Access::#access)
-            .numbered(#number)
+        #root::Variable::new(#name, #root::Access::#access)
+            #number
             .of_field(#field)
-            .#causality(::fmu_declaration::Variability::#variability)
+            .#causality(#root::Variability::#variability)
             .about(#about)
             #from
             #nan
