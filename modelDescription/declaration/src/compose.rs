@@ -51,6 +51,11 @@ use crate::variable::{Access, IN_ORDER, Variable};
 /// }
 /// const ROWS: usize = <Outer as fmu_declaration::Rows>::ROWS.len();
 /// ```
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no rows",
+    label = "a `#[part]` is a struct with rows",
+    note = "write `#[group]` above it, or derive `Rows` and `Start`"
+)]
 pub trait Rows: Sized + 'static {
     /// The rows, by number.
     const ROWS: &'static [Variable<Self>];

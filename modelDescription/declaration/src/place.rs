@@ -129,6 +129,11 @@ impl Value for String {
 }
 
 /// The type of a field that a row can show: a value, or an array of values.
+#[diagnostic::on_unimplemented(
+    message = "a row cannot show a field of type `{Self}`",
+    label = "expected f64, f32, i32, bool, String or an array of one of them",
+    note = "a field without `#[input]`, `#[output]`, `#[parameter]`, `#[calculated]` or `#[local]` is a state and may have any type; a struct of rows is a `#[part]`"
+)]
 pub trait Leaf {
     /// Its type in the interface.
     type Value: Value;

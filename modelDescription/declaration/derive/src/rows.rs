@@ -128,10 +128,11 @@ fn row(
         Type::Path(path) => path.path.segments.last().map(|s| s.ident.to_string()),
         _ => None,
     };
-    let plain = quote!(#root::place::of_field(
-        ::core::mem::offset_of!(Self, #field), |whole: &Self| &whole.#field));
-    let word = quote!(#root::place::of_word(
-        ::core::mem::offset_of!(Self, #field), |whole: &Self| &whole.#field));
+    // With the field's type, so that the compiler points at it where it is none of the interface.
+    let place =
+        quote!(::<Self, #of>(::core::mem::offset_of!(Self, #field), |whole: &Self| &whole.#field));
+    let plain = quote!(#root::place::of_field #place);
+    let word = quote!(#root::place::of_word #place);
     let (access, is_real) = match kind.as_deref() {
         Some("i32") if attribute.has("boolean") => (quote!(Boolean { at: #word }), false),
         Some("i32") if attribute.has("items") => {
