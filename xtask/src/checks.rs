@@ -8,7 +8,7 @@ use crate::venv::{Packages, Venv, check_machine};
 use std::process::Command;
 
 /// The stages of `cargo xtask test`. Where two may begin, the first one does.
-static TEST: [Stage; 14] = [
+static TEST: [Stage; 15] = [
     stage("fmt", &[], || run(&mut cargo(["fmt", "--all", "--check"]))),
     stage("venv", &[], || Venv::ready(Packages::Test).map(|_| ())),
     // What the archives are written by.
@@ -22,7 +22,10 @@ static TEST: [Stage; 14] = [
     stage("law", &["catalogue"], || {
         crate::law::build_all(false, Some(&root().join("target/law/installed")))
     }),
-    stage("pytest", &["fmu", "law", "tests built"], || {
+    stage("native", &["venv", "tests built"], || {
+        crate::stages::native(Packages::Test)
+    }),
+    stage("pytest", &["fmu", "law", "native"], || {
         run(&mut Venv::ready(Packages::Test)?.command([
             "-m",
             "pytest",

@@ -13,6 +13,7 @@
 //! | `cargo xtask fuzz [--calls N] [--seed S] [--fmu NAME]` | random calls on the built FMUs | a failing sequence, printed |
 //! | `cargo xtask law [--prefix DIR]` | the C library | `target/law/{f64,f32}`, and an installation in DIR |
 //! | `cargo xtask bench` | how fast the FMUs and the harness are | |
+//! | `cargo xtask native` | the harness' native engine, `exo run --engine native` | a wheel in `target/wheels`, installed into `.venv` |
 //! | `cargo xtask venv [--tests]` | the Python environment of the others | `.venv` |
 //!
 //! | module | what |
@@ -127,6 +128,8 @@ enum Command {
         #[arg(long)]
         fmu_dir: Option<std::path::PathBuf>,
     },
+    /// Build the harness' native engine and install it into .venv: exo run --engine native
+    Native,
     /// Create the Python environment .venv from harness/requirements.lock
     Venv {
         /// With what only tests, lints and benches need
@@ -144,6 +147,7 @@ fn main() -> ExitCode {
         Command::Ci { keep_going } => checks::ci(keep_going),
         Command::Stage { name } => checks::one(&name),
         Command::Law { bless, prefix } => law::build_all(bless, prefix.as_deref()),
+        Command::Native => stages::native(venv::Packages::Run),
         Command::Reproduce => stages::reproduce(),
         Command::Adversary { minutes, seed } => stages::adversary(minutes, seed),
         Command::Fuzz(request) => fuzz::fuzz(&request),

@@ -34,6 +34,22 @@ pub fn venv(tests: bool) -> Outcome {
     Venv::ready(packages).map(|_| ())
 }
 
+/// `cargo xtask native`: the harness' native engine as a wheel, installed into the environment.
+pub fn native(packages: Packages) -> Outcome {
+    let venv = Venv::ready(packages)?;
+    let wheels = root().join("target/wheels");
+    // Those of an earlier version would be installed beside this one.
+    let _ = std::fs::remove_dir_all(&wheels);
+    let mut build = venv.command(["-m", "maturin", "build", "--release", "--locked", "--quiet"]);
+    let manifest = root().join("harness/native/Cargo.toml");
+    run(build
+        .arg("--manifest-path")
+        .arg(manifest)
+        .arg("--out")
+        .arg(&wheels))?;
+    venv.install_wheel(&wheels)
+}
+
 /// `cargo xtask reproduce`
 pub fn reproduce() -> Outcome {
     let venv = harness(Packages::Run)?;

@@ -162,6 +162,21 @@ impl Venv {
         self.write_stamp(Packages::Test, wanted)
     }
 
+    /// Installs the one wheel in a folder, in place of an earlier one.
+    pub fn install_wheel(&self, folder: &Path) -> Outcome {
+        let mut wheels = std::fs::read_dir(folder)
+            .map_err(at(folder))?
+            .filter_map(|entry| entry.ok().map(|entry| entry.path()))
+            .filter(|path| path.extension().is_some_and(|end| end == "whl"));
+        let wheel = wheels
+            .next()
+            .ok_or(Failure::Missing("maturin has left no wheel"))?;
+        let mut pip = self.command(PIP_INSTALL);
+        run(pip
+            .args(["--no-deps", "--no-index", "--force-reinstall"])
+            .arg(wheel))
+    }
+
     fn install(&self) -> Command {
         let mut pip = self.command(PIP_INSTALL);
         pip.args(["--require-hashes", "--only-binary=:all:"]);

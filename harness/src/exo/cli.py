@@ -19,6 +19,7 @@ from exo import (
     folder,
     junit,
     kept,
+    loop,
     presets,
     readings,
     report,
@@ -55,6 +56,9 @@ FmuDir = Annotated[
 ]
 Signals = Annotated[
     str, typer.Option(metavar="all|none|SCENARIO,…", help="Whose signals are written, every tick as Parquet.")
+]
+EngineOption = Annotated[
+    str, typer.Option("--engine", metavar="fmpy|native", help="What makes the steps: the numbers are equal.")
 ]
 Csv = Annotated[bool, typer.Option("--csv", help="Write signals and the figures' data as CSV, too.")]
 AsJson = Annotated[bool, typer.Option("--json", help="As JSON.")]
@@ -122,6 +126,7 @@ def run(
     everything: Annotated[bool, typer.Option("--all", help="Prints the numbers that pass, too.")] = False,
     signals: Signals = ALL,
     csv: Csv = False,
+    engine: EngineOption = "fmpy",
     out: Out = Path("results"),
     fmu_dir: FmuDir = None,
 ) -> None:
@@ -142,6 +147,7 @@ def run(
             given=given,
             signals=signals,
             csv=csv,
+            engine=loop.named(engine),
             out=out,
             fmu_dir=fmu_dir,
             tell=lambda done, folder: screen.print_run(
@@ -155,7 +161,13 @@ def run(
 
 
 @app.command()
-def reproduce(signals: Signals = NONE, csv: Csv = False, out: Out = Path("results"), fmu_dir: FmuDir = None) -> None:
+def reproduce(
+    signals: Signals = NONE,
+    csv: Csv = False,
+    engine: EngineOption = "fmpy",
+    out: Out = Path("results"),
+    fmu_dir: FmuDir = None,
+) -> None:
     """Runs all scenarios and writes report.html."""
     with sentences():
         names = list(scenario.built_in())
@@ -165,6 +177,7 @@ def reproduce(signals: Signals = NONE, csv: Csv = False, out: Out = Path("result
             given={},
             signals=signals,
             csv=csv,
+            engine=loop.named(engine),
             out=out,
             fmu_dir=fmu_dir,
             tell=lambda done, folder: screen.print_run(done, folder=folder, shown=("fail",), unwired=False),
@@ -268,10 +281,10 @@ def validate_fmus(
 
 
 @app.command()
-def benchmark(fmu_dir: FmuDir = None) -> None:
+def benchmark(engine: EngineOption = "fmpy", fmu_dir: FmuDir = None) -> None:
     """Prints µs a macro step and the real-time factor; exit code 1 below 100 × real time."""
     with sentences():
-        speed = bench.measure(fmu_dir=find_fmu_dir(fmu_dir))
+        speed = bench.measure(fmu_dir=find_fmu_dir(fmu_dir), engine=loop.named(engine))
     console.print(speed.sentence())
     raise typer.Exit(0 if speed.factor >= bench.WANTED_FACTOR else 1)
 
@@ -431,6 +444,7 @@ def _run_all(
     preset: Preset | None = None,
     signals: str,
     csv: bool,
+    engine: loop.Engine,
     out: Path,
     fmu_dir: Path | None,
     tell: Callable[[Experiment, Path], None],
@@ -450,6 +464,7 @@ def _run_all(
                 fmu_dir=fmus,
                 overrides=values | overrides,
                 given=given,
+                engine=engine,
                 on_case=lambda _case, task=task: progress.advance(task),  # type: ignore[misc]
             )
             place = results.write(experiment=done, out=out, kept=written)

@@ -13,6 +13,7 @@ from exo import derived, metrics, preflight, trial
 from exo import overrides as settings
 from exo.errors import ScenarioError
 from exo.fmu import Archive, Instance
+from exo.loop import Engine
 from exo.paper import lookup
 from exo.recording import Recording
 from exo.scenario import Case, Scenario, Value
@@ -32,6 +33,8 @@ class Experiment:
     results: tuple[Result, ...]
     #: Archive name → guid, version and tool of the FMU.
     fmus: Mapping[str, Mapping[str, str]]
+    #: What made the steps.
+    engine: Engine = "fmpy"
     #: Inputs at their start values: nothing feeds them and nothing sets them.
     unwired: tuple[str, ...] = ()
     #: What else may be a slip, a sentence each.
@@ -49,6 +52,7 @@ class Experiment:
             "source": self.scenario.source,
             "fmus": {name: dict(facts) for name, facts in self.fmus.items()},
             "versions": {name: metadata.version(name) for name in ("exo", "fmpy", "numpy", "scipy")},
+            "engine": self.engine,
             "overrides": dict(self.overrides),
             "cases": {
                 case.id: {
@@ -77,9 +81,12 @@ def run(
     fmu_dir: Path,
     overrides: Mapping[str, str] | None = None,
     given: Mapping[str, float] | None = None,
+    engine: Engine = "fmpy",
     on_case: Callable[[Case], None] = lambda _case: None,
 ) -> Experiment:
     """Runs all cases. `overrides` are texts from the command line; `on_case` is told before each case.
+
+    `engine` makes the steps (`exo.loop`); ExoError when it is not installed.
 
     `given` are `duration` and `step` (s) where they have replaced the scenario's (`exo.selection.narrowed`).
     """
@@ -102,7 +109,9 @@ def run(
         recordings = {}
         for case in scenario.cases:
             on_case(case)
-            recordings[case.id] = derived.added(simulate(plan=plans[case.id], archives=archives), scenario.derived)
+            recordings[case.id] = derived.added(
+                simulate(plan=plans[case.id], archives=archives, engine=engine), scenario.derived
+            )
         fmus = {name: _facts(archive) for name, archive in archives.items()}
         unwired = preflight.unwired(plans, archives)
         notes = preflight.timing(plans, archives)
@@ -113,6 +122,7 @@ def run(
         recordings=recordings,
         results=evaluate(scenario=scenario, recordings=recordings, plans=plans, changed=changed),
         fmus=fmus,
+        engine=engine,
         unwired=tuple(unwired),
         notes=tuple(notes),
     )

@@ -13,7 +13,6 @@ input of step k reads its source from row k or from row k+1; this alone is what 
 
 from collections.abc import Mapping
 from contextlib import ExitStack
-from ctypes import c_double, c_int, c_size_t, c_void_p
 from dataclasses import dataclass
 from time import perf_counter, thread_time
 from typing import Any
@@ -22,8 +21,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from exo import profile
-from exo.errors import ExoError, FmuError, ScenarioError
-from exo.fmu import DTYPES, Archive, Instance, Kind, References, choices
+from exo.errors import ScenarioError
+from exo.fmu import Archive, Instance, Kind, choices
+from exo.loop import Engine, Part, Wire, run
 from exo.recording import Recording
 from exo.scenario import PROFILE, Case, Coupling, Scenario, Segment, Value
 
@@ -67,79 +67,8 @@ def plan(*, scenario: Scenario, case: Case, overrides: Mapping[str, Value] | Non
     )
 
 
-class Part:
-    """One component in the loop: its instance and its buffers by kind, one row per communication point."""
-
-    def __init__(self, instance: Instance, inputs: list[str], steps: int) -> None:
-        archive = instance.archive
-        for name in inputs:
-            variable = archive.variable(name)
-            if variable.causality != "input" and variable.variability != "tunable":
-                what = f"a {variable.variability} {variable.causality}"
-                raise FmuError(f"{archive.path.name}: {name}: only inputs and tunables can be wired, this is {what}")
-        self.instance = instance
-        self.inputs = {kind: refs for kind, refs in instance.references(inputs).items() if refs}
-        self.outputs = {kind: refs for kind, refs in instance.references(archive.names("output")).items() if refs}
-        self.u = _rows(self.inputs, steps)
-        self.y = _rows(self.outputs, steps + 1)
-
-    def read_row(self, row: int) -> None:
-        """Reads all outputs into a row."""
-        for kind, buffer in self.y.items():
-            self.instance.read(self.outputs[kind], buffer[row])
-
-    def write_row(self, row: int) -> None:
-        """Sets all wired inputs from a row."""
-        for kind, buffer in self.u.items():
-            self.instance.write(self.inputs[kind], buffer[row])
-
-    def input(self, name: str) -> tuple[Kind, int]:
-        """Kind and column of a wired input."""
-        return next((kind, refs.names.index(name)) for kind, refs in self.inputs.items() if name in refs.names)
-
-    def output(self, name: str, kind: Kind) -> int:
-        """Column of an output that must be of this kind."""
-        variable = self.instance.archive.variable(name)
-        if kind not in self.outputs or name not in self.outputs[kind].names:
-            article, what = "an" if kind == "Integer" else "a", f"{variable.causality} of type {variable.type}"
-            file = self.instance.archive.path.name
-            raise FmuError(f"{file}: {name}: expected {article} {kind} output, this is {what}")
-        return self.outputs[kind].names.index(name)
-
-    def columns(self) -> dict[str, NDArray[Any]]:
-        """Recorded columns: an output that is discrete in time belongs to the tick that step k ran, a continuous one to
-        the instant t_k at which the step began."""
-        found: dict[str, NDArray[Any]] = {}
-        for kind, buffer in self.y.items():
-            for j, name in enumerate(self.outputs[kind].names):
-                discrete = self.instance.archive.variable(name).variability == "discrete"
-                column = np.ascontiguousarray(buffer[1:, j] if discrete else buffer[:-1, j])
-                found[name] = column.astype(bool) if kind == "Boolean" else column
-        for kind, buffer in self.u.items():
-            for j, name in enumerate(self.inputs[kind].names):
-                column = np.ascontiguousarray(buffer[:, j])
-                found[name] = column.astype(bool) if kind == "Boolean" else column
-        return found
-
-
-def _rows(references: Mapping[Kind, References], rows: int) -> dict[Kind, NDArray[Any]]:
-    return {kind: np.zeros((rows, refs.count), dtype=DTYPES[kind]) for kind, refs in references.items()}
-
-
-@dataclass(frozen=True)
-class Wire:
-    """A connection of variables of one kind; `ahead` = 1 when it carries what the source put out in this very step."""
-
-    kind: Kind
-    target: Part
-    input: int
-    source: Part
-    output: int
-    ahead: int
-
-
-def simulate(*, plan: Plan, archives: Mapping[str, Archive]) -> Recording:
-    """Runs one case. `archives` are the opened FMUs by archive name."""
+def simulate(*, plan: Plan, archives: Mapping[str, Archive], engine: Engine = "fmpy") -> Recording:
+    """Runs one case. `archives` are the opened FMUs by archive name; `engine` makes the steps (`exo.loop`)."""
     time = np.arange(plan.steps, dtype=np.float64) * np.float64(plan.step)
     _check_names(plan, archives)
     with ExitStack() as stack:
@@ -156,7 +85,7 @@ def simulate(*, plan: Plan, archives: Mapping[str, Archive]) -> Recording:
             for key, value in part.instance.values(part.instance.archive.names("parameter")).items()
         }
         started = perf_counter(), thread_time()
-        _run(list(parts.values()), wires, plan)
+        run(list(parts.values()), wires, steps=plan.steps, step=plan.step, engine=engine)
         wall_time, cpu_time = perf_counter() - started[0], thread_time() - started[1]
         for part in parts.values():
             part.instance.terminate()
@@ -250,59 +179,3 @@ def _initialize(plan: Plan, parts: dict[str, Part], wires: list[Wire]) -> None:
     for part in parts.values():
         part.instance.exit_initialization_mode()
         part.read_row(0)
-
-
-def _run(parts: list[Part], wires: list[Wire], plan: Plan) -> None:
-    """The loop: per component copy the wired inputs, set, step, get.
-
-    The C functions have no argument types here: a call with finished ctypes objects takes a third of the time of one
-    that converts four numbers. The objects live as long as the loop; only addresses and the time change in them.
-    """
-    t, step, no_rollback = c_double(0.0), c_double(plan.step), c_int(1)
-    work = [_prepared(part, [w for w in wires if w.target is part]) for part in parts]
-    for k in range(plan.steps):
-        t.value = k * plan.step
-        for part, component, copies, writes, do_step, reads in work:
-            for target, at, width, source, output, stride in copies:
-                target[k * width + at] = source[k * stride + output]
-            for name, call, references, count, address, base, size in writes:
-                address.value = base + k * size
-                if status := call(component, references, count, address):
-                    raise _located(part.instance.fail(name, status), t.value)
-            if status := do_step(component, t, step, no_rollback):
-                raise _located(part.instance.fail("fmi2DoStep", status), t.value)
-            for name, call, references, count, address, base, size in reads:
-                address.value = base + k * size
-                if status := call(component, references, count, address):
-                    raise _located(part.instance.fail(name, status), t.value)
-
-
-def _located(error: ExoError, t: float) -> ExoError:
-    return FmuError(f"{error} (step at t = {t:.6g} s)")
-
-
-def _prepared(part: Part, wires: list[Wire]) -> tuple[Any, ...]:
-    """Everything that the loop needs of a component: flat views, and ctypes objects for the calls."""
-    copies = []
-    for wire in wires:
-        target, source = part.u[wire.kind], wire.source.y[wire.kind]
-        width, stride = target.shape[1], source.shape[1]
-        # `ahead` rows further on: part of the constant offset.
-        offset = wire.ahead * stride + wire.output
-        copies.append((target.reshape(-1).data, wire.input, width, source.reshape(-1).data, offset, stride))
-    writes = [_transfer(part.instance, "Set", part.inputs[kind], u, first_row=0) for kind, u in part.u.items()]
-    reads = [_transfer(part.instance, "Get", part.outputs[kind], y, first_row=1) for kind, y in part.y.items()]
-    component = c_void_p(part.instance.component)
-    return part, component, copies, writes, part.instance.function("fmi2DoStep"), reads
-
-
-def _transfer(
-    instance: Instance, prefix: str, references: References, buffer: NDArray[Any], *, first_row: int
-) -> tuple[Any, ...]:
-    """One Set or Get call of a row per step: name, function, references, their number, address, first address, row
-    size."""
-    size = buffer.strides[0]
-    base = buffer.ctypes.data + first_row * size
-    name = f"fmi2{prefix}{references.kind}"
-    addresses = c_void_p(references.address), c_size_t(references.count), c_void_p(base)
-    return name, instance.function(name), *addresses, base, size

@@ -1,0 +1,91 @@
+//! The loop as the Python module `exo_native`.
+
+use crate::coupling::{Call, Component, Copy, Ended, Loop};
+use pyo3::prelude::*;
+use std::time::Duration;
+
+/// How long the loop runs before Python may see a signal, for instance Ctrl-C.
+const PATIENCE: Duration = Duration::from_millis(50);
+
+/// Address, value references, their number, first row, size of a row in bytes.
+type CallAddresses = (usize, usize, usize, usize, usize);
+/// Target's column in row 0, size of its rows; source's column in its first row, size of its rows; bytes of the value.
+type CopyAddresses = (usize, usize, usize, usize, usize);
+/// Instance, `fmi2DoStep`, copies, writes, reads.
+type ComponentAddresses = (
+    usize,
+    usize,
+    Vec<CopyAddresses>,
+    Vec<CallAddresses>,
+    Vec<CallAddresses>,
+);
+
+/// Runs `steps` steps of `step` seconds from t = 0. Releases the interpreter meanwhile.
+///
+/// Returns None, or what returned another status than fmi2OK: the component's number, "write", "step" or "read", the number
+/// of the call among those, the status, the number of the step.
+///
+/// # Errors
+/// What a signal handler raises, as KeyboardInterrupt.
+///
+/// # Safety for the caller in Python
+/// The addresses must be what their names say and live until this returns; a row must be there for each step.
+#[pyfunction]
+#[pyo3(signature = (components, *, steps, step))]
+fn run(
+    py: Python<'_>,
+    components: Vec<ComponentAddresses>,
+    steps: usize,
+    step: f64,
+) -> PyResult<Option<(usize, &'static str, usize, i32, usize)>> {
+    let components = components.into_iter().map(component).collect();
+    // SAFETY: the caller's contract, above.
+    let mut coupled = unsafe { Loop::new(components, steps, step) };
+    loop {
+        match py.detach(|| coupled.advance(PATIENCE)) {
+            Ended::Interrupted => py.check_signals()?,
+            Ended::Done => return Ok(None),
+            Ended::Failed(failure) => {
+                let (what, number) = failure.call.named();
+                return Ok(Some((
+                    failure.component,
+                    what,
+                    number,
+                    failure.status,
+                    failure.step,
+                )));
+            }
+        }
+    }
+}
+
+fn component((instance, do_step, copies, writes, reads): ComponentAddresses) -> Component {
+    let call = |(function, references, count, row, size)| Call {
+        function,
+        references,
+        count,
+        row,
+        size,
+    };
+    let copy = |(target, target_size, source, source_size, bytes)| Copy {
+        target,
+        target_size,
+        source,
+        source_size,
+        bytes,
+    };
+    Component {
+        instance,
+        do_step,
+        copies: copies.into_iter().map(copy).collect(),
+        writes: writes.into_iter().map(call).collect(),
+        reads: reads.into_iter().map(call).collect(),
+    }
+}
+
+/// The loop of exo over coupled FMUs in machine code.
+#[pymodule]
+fn exo_native(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add("__version__", env!("CARGO_PKG_VERSION"))?;
+    module.add_function(wrap_pyfunction!(run, module)?)
+}

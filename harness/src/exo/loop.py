@@ -1,0 +1,235 @@
+"""The loop over coupled FMUs: per step and component copy the wired inputs, set, step, get.
+
+Two engines make the same calls with the same values in the same order, so that their numbers are equal bit for bit:
+
+* `fmpy`: this file's loop, by ctypes. The reference; needs nothing but Python.
+* `native`: the same in machine code (`harness/native`), installed by `cargo xtask native`. It lets other threads run
+  meanwhile.
+"""
+
+from collections.abc import Mapping
+from ctypes import c_double, c_int, c_size_t, c_void_p, cast
+from dataclasses import dataclass
+from importlib import import_module
+from typing import Any, Literal, get_args
+
+import numpy as np
+from numpy.typing import NDArray
+
+from exo.errors import ExoError, FmuError
+from exo.fmu import DTYPES, Instance, Kind, References
+
+Engine = Literal["fmpy", "native"]
+ENGINES: tuple[Engine, ...] = get_args(Engine)
+
+
+class Part:
+    """One component in the loop: its instance and its buffers by kind, one row per communication point."""
+
+    def __init__(self, instance: Instance, inputs: list[str], steps: int) -> None:
+        archive = instance.archive
+        for name in inputs:
+            variable = archive.variable(name)
+            if variable.causality != "input" and variable.variability != "tunable":
+                what = f"a {variable.variability} {variable.causality}"
+                raise FmuError(f"{archive.path.name}: {name}: only inputs and tunables can be wired, this is {what}")
+        self.instance = instance
+        self.inputs = {kind: refs for kind, refs in instance.references(inputs).items() if refs}
+        self.outputs = {kind: refs for kind, refs in instance.references(archive.names("output")).items() if refs}
+        self.u = _rows(self.inputs, steps)
+        self.y = _rows(self.outputs, steps + 1)
+
+    def read_row(self, row: int) -> None:
+        """Reads all outputs into a row."""
+        for kind, buffer in self.y.items():
+            self.instance.read(self.outputs[kind], buffer[row])
+
+    def write_row(self, row: int) -> None:
+        """Sets all wired inputs from a row."""
+        for kind, buffer in self.u.items():
+            self.instance.write(self.inputs[kind], buffer[row])
+
+    def input(self, name: str) -> tuple[Kind, int]:
+        """Kind and column of a wired input."""
+        return next((kind, refs.names.index(name)) for kind, refs in self.inputs.items() if name in refs.names)
+
+    def output(self, name: str, kind: Kind) -> int:
+        """Column of an output that must be of this kind."""
+        variable = self.instance.archive.variable(name)
+        if kind not in self.outputs or name not in self.outputs[kind].names:
+            article, what = "an" if kind == "Integer" else "a", f"{variable.causality} of type {variable.type}"
+            file = self.instance.archive.path.name
+            raise FmuError(f"{file}: {name}: expected {article} {kind} output, this is {what}")
+        return self.outputs[kind].names.index(name)
+
+    def columns(self) -> dict[str, NDArray[Any]]:
+        """Recorded columns: an output that is discrete in time belongs to the tick that step k ran, a continuous one to
+        the instant t_k at which the step began."""
+        found: dict[str, NDArray[Any]] = {}
+        for kind, buffer in self.y.items():
+            for j, name in enumerate(self.outputs[kind].names):
+                discrete = self.instance.archive.variable(name).variability == "discrete"
+                column = np.ascontiguousarray(buffer[1:, j] if discrete else buffer[:-1, j])
+                found[name] = column.astype(bool) if kind == "Boolean" else column
+        for kind, buffer in self.u.items():
+            for j, name in enumerate(self.inputs[kind].names):
+                column = np.ascontiguousarray(buffer[:, j])
+                found[name] = column.astype(bool) if kind == "Boolean" else column
+        return found
+
+
+def _rows(references: Mapping[Kind, References], rows: int) -> dict[Kind, NDArray[Any]]:
+    return {kind: np.zeros((rows, refs.count), dtype=DTYPES[kind]) for kind, refs in references.items()}
+
+
+@dataclass(frozen=True)
+class Wire:
+    """A connection of variables of one kind; `ahead` = 1 when it carries what the source put out in this very step."""
+
+    kind: Kind
+    target: Part
+    input: int
+    source: Part
+    output: int
+    ahead: int
+
+
+@dataclass(frozen=True)
+class _Call:
+    """A Set or Get of a row per step."""
+
+    name: str
+    function: Any
+    references: References
+    #: Address of the row of step 0, and the bytes of a row.
+    base: int
+    size: int
+
+
+@dataclass(frozen=True)
+class _Work:
+    """What the loop does with a component in a step."""
+
+    part: Part
+    wires: list[Wire]
+    writes: list[_Call]
+    do_step: Any
+    reads: list[_Call]
+
+
+def run(parts: list[Part], wires: list[Wire], *, steps: int, step: float, engine: Engine = "fmpy") -> None:
+    """Makes all steps from t = 0. FmuError names component, function and time of a call that fails."""
+    work = [_work(part, [wire for wire in wires if wire.target is part]) for part in parts]
+    if engine == "native":
+        _run_native(work, steps, step)
+    else:
+        _run(work, steps, step)
+
+
+def named(name: str) -> Engine:
+    """The engine of this name. ExoError, if there is none or it is not installed."""
+    for engine in ENGINES:
+        if engine == name:
+            if engine == "native":
+                native()
+            return engine
+    raise ExoError(f"--engine {name}: expected one of {', '.join(ENGINES)}")
+
+
+def native() -> Any:
+    """The module of the native engine. ExoError says how to get it."""
+    try:
+        return import_module("exo_native")
+    except ImportError:
+        raise ExoError("engine native is not installed: `cargo xtask native` builds and installs it") from None
+
+
+def _run(all_work: list[_Work], steps: int, step: float) -> None:
+    """The loop by ctypes.
+
+    The C functions have no argument types here: a call with finished ctypes objects takes a third of the time of one
+    that converts four numbers. The objects live as long as the loop; only addresses and the time change in them.
+    """
+    t, size_of_step, no_rollback = c_double(0.0), c_double(step), c_int(1)
+    prepared = [_for_ctypes(work) for work in all_work]
+    for k in range(steps):
+        t.value = k * step
+        for part, component, copies, writes, do_step, reads in prepared:
+            for target, at, width, source, output, stride in copies:
+                target[k * width + at] = source[k * stride + output]
+            for name, call, references, count, address, base, size in writes:
+                address.value = base + k * size
+                if status := call(component, references, count, address):
+                    raise _located(part.instance.fail(name, status), t.value)
+            if status := do_step(component, t, size_of_step, no_rollback):
+                raise _located(part.instance.fail("fmi2DoStep", status), t.value)
+            for name, call, references, count, address, base, size in reads:
+                address.value = base + k * size
+                if status := call(component, references, count, address):
+                    raise _located(part.instance.fail(name, status), t.value)
+
+
+def _run_native(all_work: list[_Work], steps: int, step: float) -> None:
+    """The loop in machine code: addresses go there, a failed call comes back."""
+    failed = native().run([_addresses(work) for work in all_work], steps=steps, step=step)
+    if failed is None:
+        return
+    component, what, number, status, k = failed
+    work = all_work[component]
+    names = {"write": work.writes, "read": work.reads}
+    name = names[what][number].name if what in names else "fmi2DoStep"
+    raise _located(work.part.instance.fail(name, status), k * step)
+
+
+def _located(error: ExoError, t: float) -> ExoError:
+    return FmuError(f"{error} (step at t = {t:.6g} s)")
+
+
+def _work(part: Part, wires: list[Wire]) -> _Work:
+    writes = [_call(part.instance, "Set", part.inputs[kind], u, first_row=0) for kind, u in part.u.items()]
+    reads = [_call(part.instance, "Get", part.outputs[kind], y, first_row=1) for kind, y in part.y.items()]
+    return _Work(part, wires, writes, part.instance.function("fmi2DoStep"), reads)
+
+
+def _call(instance: Instance, prefix: str, references: References, buffer: NDArray[Any], *, first_row: int) -> _Call:
+    size = buffer.strides[0]
+    name = f"fmi2{prefix}{references.kind}"
+    return _Call(name, instance.function(name), references, buffer.ctypes.data + first_row * size, size)
+
+
+def _for_ctypes(work: _Work) -> tuple[Any, ...]:
+    """Flat views for the copies, and ctypes objects for the calls."""
+    copies = []
+    for wire in work.wires:
+        target, source = wire.target.u[wire.kind], wire.source.y[wire.kind]
+        width, stride = target.shape[1], source.shape[1]
+        # `ahead` rows further on: part of the constant offset.
+        offset = wire.ahead * stride + wire.output
+        copies.append((target.reshape(-1).data, wire.input, width, source.reshape(-1).data, offset, stride))
+    component = c_void_p(work.part.instance.component)
+    writes, reads = ([_objects(call) for call in calls] for calls in (work.writes, work.reads))
+    return work.part, component, copies, writes, work.do_step, reads
+
+
+def _objects(call: _Call) -> tuple[Any, ...]:
+    addresses = c_void_p(call.references.address), c_size_t(call.references.count), c_void_p(call.base)
+    return call.name, call.function, *addresses, call.base, call.size
+
+
+def _addresses(work: _Work) -> tuple[Any, ...]:
+    """The same as numbers."""
+    copies = []
+    for wire in work.wires:
+        target, source = wire.target.u[wire.kind], wire.source.y[wire.kind]
+        to = target.ctypes.data + wire.input * target.itemsize
+        origin = source.ctypes.data + wire.ahead * source.strides[0] + wire.output * source.itemsize
+        copies.append((to, target.strides[0], origin, source.strides[0], target.itemsize))
+    writes, reads = (
+        [(_address(c.function), c.references.address, c.references.count, c.base, c.size) for c in calls]
+        for calls in (work.writes, work.reads)
+    )
+    return work.part.instance.component, _address(work.do_step), copies, writes, reads
+
+
+def _address(function: Any) -> int:
+    return int(cast(function, c_void_p).value or 0)

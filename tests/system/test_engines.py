@@ -1,0 +1,126 @@
+"""The two engines give the same recordings bit for bit, and the same errors."""
+
+import threading
+from contextlib import ExitStack
+from dataclasses import replace
+from pathlib import Path
+from time import perf_counter
+from typing import Any
+
+import pytest
+
+from exo import loop, simulate
+from exo.errors import ExoError, FmuError
+from exo.fmu import Archive
+from exo.recording import Recording
+from exo.scenario import Case, Coupling, Scenario, Segment, built_in, load
+
+from commands import exo
+
+#: Steps of each case that are compared: enough for a force to act, few enough for every case of every scenario.
+STEPS = 400
+
+
+@pytest.fixture(scope="module")
+def archives(fmu_dir: Path) -> Any:
+    with ExitStack() as stack:
+        yield {path.name: stack.enter_context(Archive(path)) for path in sorted(fmu_dir.glob("*.fmu"))}
+
+
+def both(scenario: Scenario, case: Case, archives: dict[str, Archive], **changes: Any) -> list[Recording]:
+    plan = replace(simulate.plan(scenario=scenario, case=case), **changes)
+    return [simulate.simulate(plan=plan, archives=archives, engine=engine) for engine in loop.ENGINES]
+
+
+def assert_equal(runs: list[Recording]) -> None:
+    python, native = runs
+    assert python.parameters == native.parameters
+    assert list(python.columns) == list(native.columns)
+    for name, column in python.columns.items():
+        assert column.tobytes() == native.columns[name].tobytes(), name
+
+
+@pytest.mark.parametrize("name", built_in())
+def test_every_case_is_equal_bit_for_bit(name: str, archives: dict[str, Archive]) -> None:
+    scenario = load(name)
+    for case in scenario.cases:
+        plan = simulate.plan(scenario=scenario, case=case)
+        # The forces act where they act: what is cut is the end, and a long step makes the run reach them.
+        runs = both(scenario, case, archives, duration=min(plan.duration, STEPS * plan.step))
+        assert_equal(runs)
+        moved = [
+            name for name, column in runs[0].columns.items() if column.tobytes() != column[:1].tobytes() * len(column)
+        ]
+        assert moved, f"{case.id}: nothing changes"
+
+
+@pytest.mark.parametrize(("name", "case"), [("wall", "passive_bounded_5_0.5"), ("arm_contact", "passive_bounded")])
+@pytest.mark.parametrize("coupling", ["zero_delay", "one_sample_delay", "exchange_at_once"])
+def test_whole_runs_are_equal_in_every_coupling(
+    name: str, case: str, coupling: Coupling, archives: dict[str, Archive]
+) -> None:
+    scenario = load(name)
+    chosen = next(one for one in scenario.cases if one.id == case)
+    assert_equal(both(scenario, chosen, archives, coupling=coupling))
+
+
+def test_a_failing_call_is_the_same_error_at_the_same_time(archives: dict[str, Archive]) -> None:
+    scenario = load("wall")
+    plan = simulate.plan(scenario=scenario, case=scenario.cases[0])
+    force = next(source.removeprefix("profile.") for key, source in plan.inputs.items() if key == "plant.tau_h")
+    # From half a second on it is infinite.
+    broken = Segment(kind="table", amplitude=1e200, points=((0.0, 0.0), (0.499, 0.0), (0.5, 1e200)))
+    said = []
+    for engine in loop.ENGINES:
+        with pytest.raises(FmuError) as caught:
+            simulate.simulate(
+                plan=replace(plan, profiles={**plan.profiles, force: (broken,)}), archives=archives, engine=engine
+            )
+        said.append(str(caught.value))
+    assert said[0] == said[1]
+    assert "fmi2SetReal returned fmi2Error" in said[0]
+    assert "(step at t = 0.5 s)" in said[0]
+
+
+def test_other_threads_run_meanwhile(archives: dict[str, Archive]) -> None:
+    """The native loop lets go of the interpreter: a thread that counts gets on as if alone."""
+    scenario = load("wall")
+    plan = simulate.plan(scenario=scenario, case=scenario.cases[0])
+    longest, ended = [0.0], threading.Event()
+
+    def look() -> None:
+        last = perf_counter()
+        while not ended.is_set():
+            now = perf_counter()
+            longest[0] = max(longest[0], now - last)
+            last = now
+
+    thread = threading.Thread(target=look)
+    thread.start()
+    try:
+        run = simulate.simulate(plan=replace(plan, duration=plan.duration * 40), archives=archives, engine="native")
+    finally:
+        ended.set()
+        thread.join()
+    assert run.wall_time > 0.2, "the run is long enough to be noticed"
+    assert longest[0] < run.wall_time / 2
+
+
+def test_an_engine_that_is_not_there_is_refused_before_anything_runs(tmp_path: Path, monkeypatch: Any) -> None:
+    answer = exo("run", "wall", "--engine", "fast", "--out", tmp_path)
+    assert answer.exit_code == 2
+    assert "--engine fast: expected one of fmpy, native" in " ".join(answer.stderr.split())
+    assert not list(tmp_path.iterdir())
+
+    def missing(name: str) -> None:
+        raise ImportError(name)
+
+    monkeypatch.setattr(loop, "import_module", missing)
+    with pytest.raises(ExoError, match="cargo xtask native"):
+        loop.named("native")
+
+
+def test_the_command_line_runs_with_it_and_says_so(tmp_path: Path) -> None:
+    answer = exo("run", "wall", "--case", "passive_bounded_5_0.5", "--engine", "native", "--out", tmp_path)
+    assert answer.exit_code == 0, answer.stderr
+    assert '"engine": "native"' in (tmp_path / "wall" / "metrics.json").read_text()
