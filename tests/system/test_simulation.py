@@ -36,11 +36,11 @@ def test_wired_inputs_are_set_before_initialization_ends(
 ) -> None:
     after: dict[str, dict[str, float]] = {}
 
-    def looked_at(parts: list[simulate.Part], *_rest: Any) -> None:
+    def looked_at(parts: list[loop.Part], *_rest: Any, **_named: Any) -> None:
         for part in parts:
             after[part.instance.name] = part.instance.values(["q_n", "e_nr"] if part is parts[0] else ["q"])
 
-    monkeypatch.setattr(simulate, "_run", looked_at)
+    monkeypatch.setattr(loop, "run", looked_at)
     start = job()
     simulate.simulate(plan=replace(start, parameters={**start.parameters, "plant.q_start": -0.25}), archives=archives)
     assert after == {"controller": {"q_n": -0.25, "e_nr": 0.0}, "plant": {"q": -0.25}}

@@ -114,17 +114,17 @@ pub struct Loop {
 }
 
 impl Loop {
-    /// A run of `steps` steps of `step` seconds.
+    /// A run of the steps from number `first` to before number `steps`, each of `step` seconds; step 0 begins at t = 0.
     ///
     /// # Safety
     /// As long as it lives: each address is of what its name says, and of no other thread's at the same time; each buffer has
     /// a row for each step.
-    pub unsafe fn new(components: Vec<Component>, steps: usize, step: f64) -> Self {
+    pub unsafe fn new(components: Vec<Component>, first: usize, steps: usize, step: f64) -> Self {
         Self {
             components,
             steps,
             step,
-            next: 0,
+            next: first,
         }
     }
 
@@ -295,7 +295,7 @@ mod tests {
             });
         }
         // SAFETY: all lives until the loop has ended, and there is a row for each step.
-        let mut coupled = unsafe { Loop::new(components, steps, 0.5) };
+        let mut coupled = unsafe { Loop::new(components, 0, steps, 0.5) };
         let ended = loop {
             match coupled.advance(Duration::ZERO) {
                 Ended::Interrupted => {}

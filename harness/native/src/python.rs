@@ -20,7 +20,7 @@ type ComponentAddresses = (
     Vec<CallAddresses>,
 );
 
-/// Runs `steps` steps of `step` seconds from t = 0. Releases the interpreter meanwhile.
+/// Makes the steps from number `first` to before number `steps`, each of `step` seconds, step 0 at t = 0. Releases the interpreter meanwhile.
 ///
 /// Returns None, or what returned another status than fmi2OK: the component's number, "write", "step" or "read", the number
 /// of the call among those, the status, the number of the step.
@@ -31,16 +31,17 @@ type ComponentAddresses = (
 /// # Safety for the caller in Python
 /// The addresses must be what their names say and live until this returns; a row must be there for each step.
 #[pyfunction]
-#[pyo3(signature = (components, *, steps, step))]
+#[pyo3(signature = (components, *, first, steps, step))]
 fn run(
     py: Python<'_>,
     components: Vec<ComponentAddresses>,
+    first: usize,
     steps: usize,
     step: f64,
 ) -> PyResult<Option<(usize, &'static str, usize, i32, usize)>> {
     let components = components.into_iter().map(component).collect();
     // SAFETY: the caller's contract, above.
-    let mut coupled = unsafe { Loop::new(components, steps, step) };
+    let mut coupled = unsafe { Loop::new(components, first, steps, step) };
     loop {
         match py.detach(|| coupled.advance(PATIENCE)) {
             Ended::Interrupted => py.check_signals()?,

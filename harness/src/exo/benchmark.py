@@ -34,8 +34,9 @@ class Speed:
         """The figures as one line."""
         return (
             f"engine {self.engine}: {1e6 * self.cpu_time / self.steps:.2f} µs a macro step (set, step, get of both "
-            f"FMUs, recorded): {self.factor:.0f} × real time at 500 Hz by processor time, {self.simulated / self.wall_time:.0f} × "
-            f"by the clock, over {self.steps} steps; wanted: {WANTED_FACTOR:.0f} ×"
+            f"FMUs, recorded): {self.factor:.0f} × real time at 500 Hz by processor time, "
+            f"{self.simulated / self.wall_time:.0f} × by the clock, over {self.steps} steps; "
+            f"wanted: {WANTED_FACTOR:.0f} ×"
         )
 
 

@@ -252,12 +252,18 @@ class Instance:
     def __enter__(self) -> Self:
         _MESSAGES[self._environment] = self.messages
         try:
+            self._instantiate()
+        except FmuError:
+            del _MESSAGES[self._environment]
+            raise
+        return self
+
+    def _instantiate(self) -> None:
+        try:
             self._slave.instantiate(callbacks=self._callbacks, loggingOn=True)
         except Exception as error:
-            del _MESSAGES[self._environment]
             raise FmuError(f"{self.name}: fmi2Instantiate failed: {self.last_message()}") from error
         self.component: int = self._slave.component
-        return self
 
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
@@ -294,6 +300,12 @@ class Instance:
     def do_step(self, t: float, step: float) -> None:
         """fmi2DoStep."""
         self._call("fmi2DoStep", c_double(t), c_double(step), c_int(1))
+
+    def reset(self) -> None:
+        """fmi2Reset; an instance that refuses is made anew."""
+        if int(self.function("fmi2Reset")(c_void_p(self.component))):
+            self._slave.freeInstance()
+            self._instantiate()
 
     def terminate(self) -> None:
         """fmi2Terminate."""

@@ -26,7 +26,7 @@ ENGINES: tuple[Engine, ...] = get_args(Engine)
 class Part:
     """One component in the loop: its instance and its buffers by kind, one row per communication point."""
 
-    def __init__(self, instance: Instance, inputs: list[str], steps: int) -> None:
+    def __init__(self, instance: Instance, *, inputs: list[str], outputs: list[str], steps: int) -> None:
         archive = instance.archive
         for name in inputs:
             variable = archive.variable(name)
@@ -35,7 +35,11 @@ class Part:
                 raise FmuError(f"{archive.path.name}: {name}: only inputs and tunables can be wired, this is {what}")
         self.instance = instance
         self.inputs = {kind: refs for kind, refs in instance.references(inputs).items() if refs}
-        self.outputs = {kind: refs for kind, refs in instance.references(archive.names("output")).items() if refs}
+        self.outputs = {kind: refs for kind, refs in instance.references(outputs).items() if refs}
+        self.resize(steps)
+
+    def resize(self, steps: int) -> None:
+        """Buffers for this number of steps, all zero."""
         self.u = _rows(self.inputs, steps)
         self.y = _rows(self.outputs, steps + 1)
 
@@ -62,20 +66,22 @@ class Part:
             raise FmuError(f"{file}: {name}: expected {article} {kind} output, this is {what}")
         return self.outputs[kind].names.index(name)
 
-    def columns(self) -> dict[str, NDArray[Any]]:
-        """Recorded columns: an output that is discrete in time belongs to the tick that step k ran, a continuous one to
-        the instant t_k at which the step began."""
-        found: dict[str, NDArray[Any]] = {}
-        for kind, buffer in self.y.items():
-            for j, name in enumerate(self.outputs[kind].names):
-                discrete = self.instance.archive.variable(name).variability == "discrete"
-                column = np.ascontiguousarray(buffer[1:, j] if discrete else buffer[:-1, j])
-                found[name] = column.astype(bool) if kind == "Boolean" else column
-        for kind, buffer in self.u.items():
-            for j, name in enumerate(self.inputs[kind].names):
-                column = np.ascontiguousarray(buffer[:, j])
-                found[name] = column.astype(bool) if kind == "Boolean" else column
-        return found
+    @property
+    def recorded(self) -> list[str]:
+        """Names of the outputs and wired inputs that the buffers hold."""
+        return [name for refs in (*self.outputs.values(), *self.inputs.values()) for name in refs.names]
+
+    def column(self, name: str) -> NDArray[Any]:
+        """A recorded column: an output that is discrete in time belongs to the tick that step k ran, a continuous one
+        to the instant t_k at which the step began. KeyError, if it is not recorded."""
+        discrete = self.instance.archive.variable(name).variability == "discrete"
+        for rows, references in ((slice(1, None) if discrete else slice(-1), self.outputs), (slice(None), self.inputs)):
+            buffers = self.y if references is self.outputs else self.u
+            for kind, refs in references.items():
+                if name in refs.names:
+                    column = buffers[kind][rows, refs.names.index(name)].copy()
+                    return column.astype(bool) if kind == "Boolean" else column
+        raise KeyError(name)
 
 
 def _rows(references: Mapping[Kind, References], rows: int) -> dict[Kind, NDArray[Any]]:
@@ -117,13 +123,18 @@ class _Work:
     reads: list[_Call]
 
 
-def run(parts: list[Part], wires: list[Wire], *, steps: int, step: float, engine: Engine = "fmpy") -> None:
-    """Makes all steps from t = 0. FmuError names component, function and time of a call that fails."""
+def run(
+    parts: list[Part], wires: list[Wire], *, steps: int, step: float, first: int = 0, engine: Engine = "fmpy"
+) -> None:
+    """Makes the steps from number `first` to before number `steps`; step 0 begins at t = 0.
+
+    FmuError names component, function and time of a call that fails.
+    """
     work = [_work(part, [wire for wire in wires if wire.target is part]) for part in parts]
     if engine == "native":
-        _run_native(work, steps, step)
+        _run_native(work, first, steps, step)
     else:
-        _run(work, steps, step)
+        _run(work, first, steps, step)
 
 
 def named(name: str) -> Engine:
@@ -144,7 +155,7 @@ def native() -> Any:
         raise ExoError("engine native is not installed: `cargo xtask native` builds and installs it") from None
 
 
-def _run(all_work: list[_Work], steps: int, step: float) -> None:
+def _run(all_work: list[_Work], first: int, steps: int, step: float) -> None:
     """The loop by ctypes.
 
     The C functions have no argument types here: a call with finished ctypes objects takes a third of the time of one
@@ -152,7 +163,7 @@ def _run(all_work: list[_Work], steps: int, step: float) -> None:
     """
     t, size_of_step, no_rollback = c_double(0.0), c_double(step), c_int(1)
     prepared = [_for_ctypes(work) for work in all_work]
-    for k in range(steps):
+    for k in range(first, steps):
         t.value = k * step
         for part, component, copies, writes, do_step, reads in prepared:
             for target, at, width, source, output, stride in copies:
@@ -169,9 +180,9 @@ def _run(all_work: list[_Work], steps: int, step: float) -> None:
                     raise _located(part.instance.fail(name, status), t.value)
 
 
-def _run_native(all_work: list[_Work], steps: int, step: float) -> None:
+def _run_native(all_work: list[_Work], first: int, steps: int, step: float) -> None:
     """The loop in machine code: addresses go there, a failed call comes back."""
-    failed = native().run([_addresses(work) for work in all_work], steps=steps, step=step)
+    failed = native().run([_addresses(work) for work in all_work], first=first, steps=steps, step=step)
     if failed is None:
         return
     component, what, number, status, k = failed
