@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from exo import profile, simulate
+from exo import loop, profile, simulate
 from exo.errors import ExoError, FmuError
 from exo.fmu import Archive, Instance
 from exo.scenario import Segment, load
