@@ -13,6 +13,7 @@ input of step k reads its source from row k or from row k+1; this alone is what 
 
 from collections.abc import Collection, Iterator, Mapping
 from contextlib import ExitStack
+from dataclasses import dataclass
 from time import perf_counter, thread_time
 from types import TracebackType
 from typing import Any, Self
@@ -21,12 +22,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from exo import loop, profile
-from exo.errors import ExoError, ScenarioError
+from exo.errors import ExoError, FmuError, ScenarioError
 from exo.fmu import Archive, Instance, Kind, choices
 from exo.loop import Engine, Part, Wire
 from exo.plan import Plan
 from exo.recording import Recording
-from exo.scenario import PROFILE
+from exo.scenario import PROFILE, Value
 
 #: A profile's value from which on the Boolean input that it drives is true.
 TRUE_FROM = 0.5
@@ -72,6 +73,15 @@ class Columns(Mapping[str, NDArray[Any]]):
     def taken(self) -> set[str]:
         """Names of the columns that somebody has asked for."""
         return set(self._taken)
+
+
+@dataclass(frozen=True)
+class Saved:
+    """FMU states by component, the number of the step that comes next, and the parameters as they then were."""
+
+    states: Mapping[str, int]
+    next: int
+    parameters: Mapping[str, float | int | bool]
 
 
 class Coupled:
@@ -145,6 +155,38 @@ class Coupled:
         self._wall_time += perf_counter() - began[0]
         self._cpu_time += thread_time() - began[1]
         self._next = end
+
+    def save(self) -> "Saved":
+        """The FMU states at the present step, to go on from with `restore`. FmuError, if an FMU has none."""
+        states: dict[str, int] = {}
+        for name, part in self._parts.items():
+            if not self._archives[name].description.coSimulation.canGetAndSetFMUstate:
+                self.free(Saved(states, self._next, dict(self._parameters)))
+                raise FmuError(
+                    f"{self._archives[name].path.name}: cannot save its state; expected canGetAndSetFMUstate"
+                )
+            states[name] = part.instance.get_state()
+        return Saved(states, self._next, dict(self._parameters))
+
+    def restore(self, saved: "Saved") -> None:
+        """Back to what `save` has kept, of this very object. What was recorded before stays."""
+        for name, part in self._parts.items():
+            part.instance.set_state(saved.states[name])
+        self._next = saved.next
+        self._parameters = dict(saved.parameters)
+
+    def free(self, saved: "Saved") -> None:
+        """Gives back the memory of what `save` has kept."""
+        for name, state in saved.states.items():
+            self._parts[name].instance.free_state(state)
+
+    def set(self, key: str, value: Value) -> None:
+        """Sets a tunable parameter or an input, `component.name`, during a run."""
+        component, name = key.split(".", 1)
+        instance = self._parts[component].instance
+        instance.set_start(name, value)
+        if instance.archive.variable(name).causality == "parameter":
+            self._parameters[key] = instance.values([name])[name]
 
     def terminate(self) -> None:
         """fmi2Terminate of all."""

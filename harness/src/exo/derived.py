@@ -9,8 +9,9 @@ A scenario asks for them with `derived = ["f_ed"]`; metrics, figures and `signal
 | `x_nr` | `derived.x_nr` | 1 | ‖(e_nr, de_nr)‖ of testbed or arm, metres and metres a second added up as in thm:pm |
 """
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -103,4 +104,24 @@ def added(run: Recording, names: Iterable[str]) -> Recording:
         for column, values in zip(signal.columns, computed, strict=True):
             more[f"{DERIVED}.{column}"] = np.ascontiguousarray(values)
             units[f"{DERIVED}.{column}"] = signal.unit
-    return replace(run, columns={**run.columns, **more}, units={**run.units, **units})
+    # The run's own columns may be taken from it when they are asked for.
+    return replace(run, columns=_Both(more, run.columns), units={**run.units, **units})
+
+
+class _Both(Mapping[str, NDArray[Any]]):
+    """Two mappings as one; the first one's values go before."""
+
+    def __init__(self, first: Mapping[str, NDArray[Any]], second: Mapping[str, NDArray[Any]]) -> None:
+        self._first, self._second = first, second
+
+    def __getitem__(self, name: str) -> NDArray[Any]:
+        return self._first[name] if name in self._first else self._second[name]
+
+    def __contains__(self, name: object) -> bool:
+        return name in self._first or name in self._second
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(dict.fromkeys([*self._second, *self._first]))
+
+    def __len__(self) -> int:
+        return len(set(self._first) | set(self._second))

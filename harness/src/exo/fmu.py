@@ -311,6 +311,20 @@ class Instance:
         """fmi2Terminate."""
         self._call("fmi2Terminate")
 
+    def get_state(self) -> int:
+        """fmi2GetFMUstate: a handle, to be freed."""
+        state = c_void_p()
+        self._call("fmi2GetFMUstate", byref(state))
+        return int(state.value or 0)
+
+    def set_state(self, state: int) -> None:
+        """fmi2SetFMUstate."""
+        self._call("fmi2SetFMUstate", c_void_p(state))
+
+    def free_state(self, state: int) -> None:
+        """fmi2FreeFMUstate."""
+        self._call("fmi2FreeFMUstate", byref(c_void_p(state)))
+
     def set_start(self, name: str, value: bool | int | float | str) -> None:
         """Sets a parameter or an input by name; enumerations by item name or number."""
         kind, number = self.archive.start_value(name, value)

@@ -147,6 +147,15 @@ def named(name: str) -> Engine:
     raise ExoError(f"--engine {name}: expected one of {', '.join(ENGINES)}")
 
 
+def fastest() -> Engine:
+    """The native engine where it is installed."""
+    try:
+        native()
+    except ExoError:
+        return "fmpy"
+    return "native"
+
+
 def native() -> Any:
     """The module of the native engine. ExoError says how to get it."""
     try:

@@ -31,6 +31,11 @@ def complete(function: str, arguments: Mapping[str, Any]) -> dict[str, Any]:
 def evaluate(*, recording: Recording, function: str, arguments: Mapping[str, Any], owner: str) -> float:
     """Calls a registered function; unknown names and wrong arguments are errors that name `owner`."""
     check(function=function, arguments=arguments, owner=owner)
+    return call(recording=recording, function=function, arguments=arguments, owner=owner)
+
+
+def call(*, recording: Recording, function: str, arguments: Mapping[str, Any], owner: str) -> float:
+    """The same of arguments that have been checked."""
     try:
         return float(REGISTRY[function](recording, **complete(function, arguments)))
     except ExoError:

@@ -1,0 +1,118 @@
+"""Many runs of a scenario: each equals a run of its own, whatever ran before it."""
+
+import math
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pyarrow as pa
+import pytest
+
+import exo
+from exo import experiment, loop, scenario, selection
+from exo.errors import ExoError
+from exo.runs import ERROR, Batch
+
+WALL = "passive_bounded_5_0.5"
+
+
+def alone(name: str, case: str, fmu_dir: Path, **settings: str) -> dict[str, float]:
+    """What `exo run` finds with these settings."""
+    loaded = selection.narrowed(scenario.load(name), cases=[case])
+    texts = {key.replace("__", "."): value for key, value in settings.items()}
+    done = experiment.run(scenario=loaded, fmu_dir=fmu_dir, overrides=texts)
+    return {result.id.split("/")[0]: result.value for result in done.results}
+
+
+def equal(a: float, b: float) -> bool:
+    return a == b or (math.isnan(a) and math.isnan(b))
+
+
+@pytest.mark.parametrize("engine", loop.ENGINES)
+def test_each_row_is_what_a_run_of_its_own_gives(engine: loop.Engine, fmu_dir: Path) -> None:
+    gains = [30.0, 5.0, 10.0, 30.0]
+    found = exo.batch("wall", {"controller.K": gains}, cases=[WALL], engine=engine, fmu_dir=fmu_dir)
+    assert found[ERROR].null_count == len(gains)
+    for i, K in enumerate(gains):
+        wanted = alone("wall", WALL, fmu_dir, controller__K=str(K))
+        for name in found.column_names:
+            if name in wanted:
+                assert equal(found[name][i].as_py(), wanted[name]), (K, name)
+    assert found["spring_force"][0] == found["spring_force"][3]
+    assert len(set(found["release_delay"].to_pylist())) == 3
+
+
+def test_all_cases_and_ratios_of_the_arm_in_one_row(fmu_dir: Path) -> None:
+    found = exo.batch("gain_study", {"controller.D_n": [0.5]}, fmu_dir=fmu_dir)
+    done = experiment.run(scenario=scenario.load("gain_study"), fmu_dir=fmu_dir, overrides={"controller.D_n": "0.5"})
+    wanted = {result.id: result.value for result in done.results if not result.id.endswith("beside the paper")}
+    compared = [name for name in found.column_names if name in wanted]
+    assert len(compared) >= 6
+    for name in compared:
+        assert equal(found[name][0].as_py(), wanted[name]), name
+
+
+def test_a_row_that_fails_is_a_row_with_its_reason_and_the_next_one_is_unharmed(fmu_dir: Path) -> None:
+    found = exo.batch("wall", {"controller.K": [30.0, -1.0, 30.0]}, cases=[WALL], fmu_dir=fmu_dir).to_pydict()
+    assert "K = -1 N.s/m, expected a value from" in found[ERROR][1]
+    assert math.isnan(found["release_delay"][1])
+    assert found["release_delay"][0] == found["release_delay"][2] > 0.0
+
+
+def test_rows_set_forces_and_times_too(fmu_dir: Path) -> None:
+    rows = {"profile.tau_h.1.amplitude": [0.0, 5.0], "duration": [2.0, 4.0]}
+    with Batch("wall", cases=[WALL], fmu_dir=fmu_dir) as runs:
+        runs.check([dict.fromkeys(rows, 1.0)])
+        looked = [runs.run(dict(zip(rows, values, strict=True))) for values in zip(*rows.values(), strict=True)]
+    assert all(one.error is None for one in looked)
+    refused = exo.batch("wall", {"duration": [2.001]}, cases=[WALL], fmu_dir=fmu_dir)[ERROR][0].as_py()
+    assert "no multiple of the step" in refused
+
+
+@pytest.mark.parametrize("engine", loop.ENGINES)
+def test_rows_that_branch_off_equal_runs_whose_gain_changes_then(engine: loop.Engine, fmu_dir: Path) -> None:
+    """Against the whole: the branch with the trunk's own gain is the plain run; no row depends on those before it."""
+    gains = [30.0, 5.0, 10.0, 30.0]
+    run: Any = {"cases": [WALL], "engine": engine, "fmu_dir": fmu_dir}
+    own = exo.batch("wall", {"controller.K": [30.0]}, **run).to_pydict()
+    found = exo.batch("wall", {"controller.K": gains}, branch_at=19.0, **run).to_pydict()
+    backwards = exo.batch("wall", {"controller.K": gains[::-1]}, branch_at=19.0, **run).to_pydict()
+    for name in [one for one in found if one != ERROR]:
+        assert equal(found[name][0], own[name][0]), name
+        assert all(equal(a, b) for a, b in zip(found[name], backwards[name][::-1], strict=True)), name
+    assert len(set(found["release_delay"])) == 3
+
+
+@pytest.mark.parametrize(
+    ("parameters", "branch_at", "said"),
+    [
+        ({"controler.K": [1.0]}, None, "close matches: controller"),
+        ({"controller.k": [1.0]}, None, "no variable k"),
+        ({"controller.tau_a": [1.0]}, None, "only parameters and inputs can be set, this is output"),
+        ({"controller.q": [1.0]}, None, "is wired to plant.q"),
+        ({"profile.tau_h.9.amplitude": [1.0]}, None, "expected 1 to"),
+        ({"profile.tau_h.1.kind": [1.0]}, None, "a term has no number kind"),
+        ({"profile.tau_h": [1.0]}, None, "expected profile.<name>"),
+        ({"controller.K": [1.0, 2.0], "plant.M": [1.0]}, None, "expected columns of one length"),
+        ({"plant.M": [1.0]}, 5.0, "plant.M: is fixed; after 5 s only tunable"),
+        ({"duration": [1.0]}, 5.0, "cannot set it"),
+    ],
+)
+def test_what_no_row_can_set_is_refused_before_anything_runs(
+    parameters: Any, branch_at: float | None, said: str, fmu_dir: Path
+) -> None:
+    with pytest.raises(ExoError) as caught:
+        exo.batch("wall", parameters, cases=[WALL], branch_at=branch_at, fmu_dir=fmu_dir)
+    assert said in str(caught.value)
+
+
+def test_a_branch_beyond_the_run_is_named(fmu_dir: Path) -> None:
+    with pytest.raises(ExoError, match=r"branch_at = 1000 s: expected a time within the run"):
+        exo.batch("wall", {"controller.K": [1.0]}, cases=[WALL], branch_at=1000.0, fmu_dir=fmu_dir)
+
+
+def test_arrow_and_numpy_go_in(fmu_dir: Path) -> None:
+    given = pa.table({"controller.K": np.linspace(10.0, 30.0, 3), "controller.law": np.array([3, 4, 4])})
+    found = exo.batch("wall", given, cases=[WALL], fmu_dir=fmu_dir)
+    assert found[ERROR].null_count == 3
+    assert found["controller.law"].to_pylist() == [3, 4, 4]
