@@ -51,7 +51,7 @@ def replaced(target: Path) -> Iterator[Path]:
     with locked(target.parent):
         _sweep(target)
         fresh = Path(tempfile.mkdtemp(prefix=f".{target.name}.", suffix=".new", dir=target.parent))
-        living = _lock(fresh)
+        living = lock(fresh)
     try:
         fresh.chmod(0o777 & ~_umask())
         yield fresh
@@ -73,13 +73,13 @@ def _sweep(target: Path) -> None:
         shutil.rmtree(old, ignore_errors=True)
     for fresh in target.parent.glob(f".{target.name}.*.new"):
         with suppress(OSError):
-            handle = _lock(fresh, wait=False)
+            handle = lock(fresh, wait=False)
             shutil.rmtree(fresh, ignore_errors=True)
             if handle is not None:
                 os.close(handle)
 
 
-def _lock(folder: Path, *, wait: bool = True) -> int | None:
+def lock(folder: Path, *, wait: bool = True) -> int | None:
     """Locks a folder until the handle is closed or the process ends; OSError, if another one has it."""
     if sys.platform == "win32":
         return None
@@ -146,7 +146,7 @@ def write_file(path: Path, data: bytes) -> None:
 @contextmanager
 def locked(out: Path) -> Iterator[None]:
     """One process at a time where folders are put into place. The lock ends with its process."""
-    handle = _lock(out)
+    handle = lock(out)
     try:
         yield
     finally:

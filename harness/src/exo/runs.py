@@ -25,8 +25,9 @@ from typing import Any, Self
 
 import pyarrow as pa
 
-from exo import derived, metrics, preflight, selection, trial
+from exo import derived, preflight, selection, trial
 from exo import loop as loops
+from exo import metrics as measures
 from exo import scenario as scenarios
 from exo.coupled import Coupled, NotKeptError, Saved
 from exo.errors import ExoError, FmuError, ScenarioError, close_matches
@@ -50,18 +51,20 @@ def batch(
     parameters: Mapping[str, Sequence[Value]] | pa.Table,
     *,
     cases: Iterable[str] = (),
+    metrics: Iterable[str] = (),
     branch_at: float | None = None,
     engine: Engine | None = None,
     fmu_dir: Path | None = None,
 ) -> pa.Table:
     """Runs the scenario once for each row of `parameters`; returns the rows with a column for each metric and `error`.
 
-    `scenario` is one, an id or a file; `cases` are ids or patterns, all cases without them. `branch_at` (s) as above.
+    `scenario` is one, an id or a file; `cases` are ids or patterns, all cases without them; `metrics` are ids of
+    metrics and ratios, all without them. `branch_at` (s) as above.
     `engine` is native where it is installed. A row that fails is a row with its reason in `error` and NaN for numbers.
     ScenarioError and FmuError name what is wrong with all rows: a key, a scenario, an archive.
     """
     rows = rows_of(parameters)
-    with Batch(scenario, cases=cases, branch_at=branch_at, engine=engine, fmu_dir=fmu_dir) as runs:
+    with Batch(scenario, cases=cases, metrics=metrics, branch_at=branch_at, engine=engine, fmu_dir=fmu_dir) as runs:
         runs.check(rows)
         return table(rows, [runs.run(row) for row in rows], runs.names)
 
@@ -104,13 +107,14 @@ class Batch:
         scenario: Scenario | str,
         *,
         cases: Iterable[str] = (),
+        metrics: Iterable[str] = (),
         branch_at: float | None = None,
         engine: Engine | None = None,
         fmu_dir: Path | None = None,
     ) -> None:
         """As `batch`. ScenarioError or FmuError, if something is wrong that no row could mend."""
         loaded = scenarios.load(scenario) if isinstance(scenario, str) else scenario
-        self.scenario = selection.narrowed(loaded, cases=cases)
+        self.scenario = _measured(selection.narrowed(loaded, cases=cases), tuple(metrics))
         self.engine: Engine = engine or loops.fastest()
         self._branch_at = branch_at
         self._folder = find_fmu_dir(fmu_dir)
@@ -164,7 +168,7 @@ class Batch:
         for metric in self.scenario.metrics:
             for case in metric.cases or tuple(recordings):
                 found[f"{metric.id}/{case}"] = recordings[case].measure(
-                    lambda run, metric=metric, case=case: metrics.call(
+                    lambda run, metric=metric, case=case: measures.call(
                         recording=run,
                         function=metric.function,
                         arguments=metric.arguments,
@@ -234,6 +238,20 @@ class Batch:
             except ValueError as error:
                 raise ScenarioError(str(error)) from error
         return made
+
+
+def _measured(scenario: Scenario, ids: tuple[str, ...]) -> Scenario:
+    """The scenario with these metrics and ratios alone; and the metrics that the ratios are of."""
+    if not ids:
+        return scenario
+    known = [metric.id for metric in scenario.metrics] + [ratio.id for ratio in scenario.ratios]
+    for name in ids:
+        if name not in known:
+            raise ScenarioError(f"{scenario.id}: no metric {name}{close_matches(name, known)}")
+    ratios = tuple(ratio for ratio in scenario.ratios if ratio.id in ids)
+    needed = {*ids, *(name.split("/", 1)[0] for ratio in ratios for name in ratio.of)}
+    metrics = tuple(metric for metric in scenario.metrics if metric.id in needed)
+    return scenario.model_copy(update={"metrics": metrics, "ratios": ratios})
 
 
 def _names(scenario: Scenario) -> list[str]:

@@ -1,0 +1,119 @@
+"""Sweeps: a study's rows on all processors or a cluster, into one table and its pictures.
+
+| module | what |
+|---|---|
+| `study` | the study as data: axes, samples, figures |
+| `store` | the folder: parts, resumption, the table |
+| `chunks` | which rows go to a worker at once |
+| `work` | what a worker does |
+| `local`, `cluster` | processes of this machine, and Dask |
+| `pictures` | maps, scatters, histograms, fronts |
+"""
+
+import hashlib
+import uuid
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+import pyarrow as pa
+
+from exo.errors import ExoError
+from exo.fmu import find_fmu_dir
+from exo.loop import Engine
+from exo.runs import ERROR, Batch
+from exo.sweep import cluster, local, pictures
+from exo.sweep.chunks import Queue
+from exo.sweep.local import Kept
+from exo.sweep.store import ROW, SECONDS, Store
+from exo.sweep.study import Study, check_figures, load
+from exo.sweep.work import Task
+
+__all__ = ["Progress", "Study", "Swept", "load", "sweep"]
+
+
+@dataclass(frozen=True)
+class Progress:
+    """How far a sweep is: rows of this run, and rows that an earlier one has left."""
+
+    done: int
+    all: int
+    kept_before: int
+    failed: int
+
+
+@dataclass(frozen=True)
+class Swept:
+    """What a sweep has left."""
+
+    folder: Path
+    table: pa.Table
+    pictures: tuple[Path, ...]
+
+    @property
+    def failed(self) -> int:
+        """Rows without numbers."""
+        return int(self.table.num_rows - self.table[ERROR].null_count)
+
+
+def sweep(
+    path: Path,
+    *,
+    out: Path = Path("results/sweeps"),
+    workers: int | None = None,
+    scheduler: str | None = None,
+    engine: Engine | None = None,
+    fmu_dir: Path | None = None,
+    fresh: bool = False,
+    tell: Callable[[Progress], None] = lambda _progress: None,
+) -> Swept:
+    """Runs the study of a file, or what is left of it; returns the table and the pictures that were drawn.
+
+    `workers` are processes of this machine, all of it without; `scheduler` is the address of a Dask cluster in their
+    place. `fresh` forgets what an earlier sweep has left. `tell` is told after each chunk of rows.
+    ExoError names what is wrong with study, folder or cluster; a row that fails is a row with its reason.
+    """
+    study, scenario = load(path)
+    rows = study.rows()
+    folder = find_fmu_dir(fmu_dir)
+    names = sorted({part.archive for part in scenario.components.values()})
+    if workers is not None and workers < 1:
+        raise ExoError(f"--workers {workers}: expected 1 or more")
+    # Opened here once, so that what is wrong with all rows is told before a worker begins.
+    with Batch(
+        scenario, cases=study.cases, metrics=study.metrics, branch_at=study.branch_at, engine=engine, fmu_dir=folder
+    ) as runs:
+        runs.check(rows[:1])
+        check_figures(study, [ROW, *rows[0], *runs.names, SECONDS])
+    archives = {name: (folder / name).read_bytes() for name in names}
+    checksums = {name: hashlib.sha256(data).hexdigest() for name, data in archives.items()}
+    store = Store(out, study, scenario, rows, checksums)
+    if fresh:
+        store.clear()
+    with store:
+        before = store.done()
+        queue = Queue(rows, before)
+        task = Task(
+            id=uuid.uuid4().hex,
+            scenario=scenario,
+            cases=study.cases,
+            metrics=study.metrics,
+            branch_at=study.branch_at,
+            engine=engine,
+            fmu_dir=None if scheduler else folder.resolve(),
+        )
+        chunks: Iterator[Kept]
+        if scheduler:
+            chunks = cluster.run(task, queue, scheduler=scheduler, archives=archives)
+        else:
+            chunks = local.run(task, queue, workers=workers or local.processors())
+        finished, failed = len(before), 0
+        tell(Progress(finished, len(rows), len(before), failed))
+        for measured, done in chunks:
+            store.keep(done, measured or runs.names)
+            finished += len(done)
+            failed += sum(one.outcome.error is not None for one in done)
+            tell(Progress(finished, len(rows), len(before), failed))
+        table = store.finish()
+        drawn = tuple(pictures.draw(figure, study, table, store.folder) for figure in study.figures)
+    return Swept(store.folder, table, drawn)

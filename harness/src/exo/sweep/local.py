@@ -1,0 +1,76 @@
+"""A sweep on the processors of this machine: a process each. An FMU that ends its process costs its own row only."""
+
+import multiprocessing
+import os
+import signal
+from collections.abc import Iterator
+from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
+from concurrent.futures.process import BrokenProcessPool
+from typing import Any
+
+from exo.runs import Outcome
+from exo.sweep.chunks import Queue
+from exo.sweep.store import Done
+from exo.sweep.work import Chunk, Task, run_chunk
+
+Kept = tuple[list[str], list[Done]]
+ENDED = "its process was ended twice; expected an FMU that returns"
+
+
+def processors() -> int:
+    """How many this process may use."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+
+
+def run(task: Task, queue: Queue, *, workers: int) -> Iterator[Kept]:
+    """Runs all rows of the queue; yields what each chunk has come to."""
+    names: list[str] = []
+    while len(queue):
+        with _pool(workers) as pool:
+            running: dict[Future[Kept], Chunk] = {}
+            try:
+                for kept in _until_broken(pool, task, queue, running, workers):
+                    names = kept[0]
+                    yield kept
+            except BrokenProcessPool:
+                lost = [i for chunk in running.values() for i in queue.give_back(chunk)]
+                if lost:
+                    yield names, [Done(i, Outcome({}, ENDED), 0.0) for i in lost]
+            finally:
+                for future in running:
+                    future.cancel()
+                _end(pool)
+
+
+def _pool(workers: int) -> ProcessPoolExecutor:
+    # A forked process would have this one's threads' locks.
+    return ProcessPoolExecutor(workers, mp_context=multiprocessing.get_context("spawn"), initializer=_ignore_interrupts)
+
+
+def _ignore_interrupts() -> None:
+    # Ctrl-C goes to all processes of a terminal; the first one decides.
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+
+
+def _until_broken(
+    pool: ProcessPoolExecutor, task: Task, queue: Queue, running: dict[Future[Kept], Chunk], workers: int
+) -> Iterator[Kept]:
+    while len(queue) or running:
+        # One more than work: no worker waits for this process.
+        while len(queue) and len(running) < workers + 1:
+            chunk = queue.next()
+            running[pool.submit(run_chunk, task, chunk)] = chunk
+        ended, _ = wait(running, return_when=FIRST_COMPLETED)
+        for future in ended:
+            names, done = future.result()
+            del running[future]
+            queue.learn(done)
+            yield names, done
+
+
+def _end(pool: ProcessPoolExecutor) -> None:
+    """Ends the workers now: what they are at is run again."""
+    processes: dict[int, Any] = dict(getattr(pool, "_processes", None) or {})
+    pool.shutdown(wait=False, cancel_futures=True)
+    for process in processes.values():
+        process.terminate()

@@ -1,0 +1,79 @@
+"""What a worker does, on this machine and on a cluster: it opens the scenario once, then runs chunks of rows."""
+
+import tempfile
+import threading
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from time import perf_counter
+
+from exo.loop import Engine
+from exo.runs import Batch
+from exo.scenario import Scenario, Value
+from exo.sweep.store import Done
+
+Chunk = Sequence[tuple[int, Mapping[str, Value]]]
+
+
+@dataclass(frozen=True)
+class Task:
+    """What all rows have in common."""
+
+    #: Of this sweep alone.
+    id: str
+    scenario: Scenario
+    cases: tuple[str, ...]
+    metrics: tuple[str, ...]
+    branch_at: float | None
+    engine: Engine | None
+    #: Where the archives lie; None: they come with the chunk.
+    fmu_dir: Path | None
+
+
+#: The scenario that this thread has open.
+_OPEN = threading.local()
+
+
+def run_chunk(task: Task, chunk: Chunk, archives: Mapping[str, bytes] | None = None) -> tuple[list[str], list[Done]]:
+    """Runs rows; returns the numbers' names and what became of each row."""
+    runs = _opened(task, archives or {})
+    done = []
+    for number, row in chunk:
+        began = perf_counter()
+        outcome = runs.run(row)
+        done.append(Done(number, outcome, perf_counter() - began))
+    return runs.names, done
+
+
+def _opened(task: Task, archives: Mapping[str, bytes]) -> Batch:
+    if getattr(_OPEN, "id", None) == task.id:
+        return _OPEN.runs  # type: ignore[no-any-return]
+    close()
+    folder = task.fmu_dir
+    if folder is None:
+        place = tempfile.TemporaryDirectory(prefix="exo-sweep-")
+        folder = Path(place.name)
+        for name, data in archives.items():
+            (folder / name).write_bytes(data)
+        _OPEN.place = place
+    runs = Batch(
+        task.scenario,
+        cases=task.cases,
+        metrics=task.metrics,
+        branch_at=task.branch_at,
+        engine=task.engine,
+        fmu_dir=folder,
+    )
+    _OPEN.runs, _OPEN.id = runs.__enter__(), task.id
+    return runs
+
+
+def close() -> None:
+    """Frees what this thread has open."""
+    if getattr(_OPEN, "id", None) is not None:
+        _OPEN.id = None
+        _OPEN.runs.__exit__(None, None, None)
+    place = getattr(_OPEN, "place", None)
+    if place is not None:
+        place.cleanup()
+        _OPEN.place = None
