@@ -20,17 +20,17 @@ class Queue:
         self._waiting = [i for i in range(len(rows)) if i not in there][::-1]
         self._seconds = 0.0
         self._counted = 0
-        #: Rows that were given back: each goes alone, so that one that ends its process takes no other with it.
-        self._alone: list[int] = []
-        self._failed: dict[int, int] = {}
+        #: Rows that were under way when a process ended: one of them ended it.
+        self._suspects: list[int] = []
+        self._ended: dict[int, int] = {}
 
     def __len__(self) -> int:
-        return len(self._waiting) + len(self._alone)
+        return len(self._waiting) + len(self._suspects)
 
     def next(self) -> Chunk:
         """The next rows, none when none are left."""
-        if self._alone:
-            i = self._alone.pop()
+        if self._suspects:
+            i = self._suspects.pop()
             return [(i, self._rows[i])]
         size = 1
         if self._counted:
@@ -48,14 +48,17 @@ class Queue:
         """Rows that were under way when the cluster was lost."""
         self._waiting += [i for i, _ in reversed(chunk)]
 
-    def give_back(self, chunk: Chunk, *, attempts: int = 2) -> list[int]:
-        """Rows whose worker is lost: they wait again, each alone. Returns those that have lost `attempts` workers."""
-        lost = []
-        for i, _ in chunk:
-            alone = len(chunk) == 1
-            self._failed[i] = self._failed.get(i, 0) + alone
-            if self._failed[i] >= attempts:
-                lost.append(i)
-            else:
-                self._alone.append(i)
-        return lost
+    @property
+    def suspects(self) -> bool:
+        """Whether the next row may end its process: it is to run while no other does."""
+        return bool(self._suspects)
+
+    def give_back(self, chunks: Sequence[Chunk], *, attempts: int = 2) -> list[int]:
+        """Rows that were under way when a process ended wait again, each alone. Returns those that have ended one
+        `attempts` times while no other row ran."""
+        rows = [i for chunk in chunks for i, _ in chunk]
+        if len(rows) == 1:
+            self._ended[rows[0]] = self._ended.get(rows[0], 0) + 1
+        guilty = [i for i in rows if self._ended.get(i, 0) >= attempts]
+        self._suspects += [i for i in rows if i not in guilty]
+        return guilty

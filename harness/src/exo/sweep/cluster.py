@@ -73,7 +73,7 @@ def _all(
 ) -> Iterator[Kept]:
     distributed = _dask()
     sent = client.scatter(dict(archives), broadcast=True, hash=False)
-    ended = distributed.as_completed()
+    ended = distributed.as_completed(loop=client.loop)
     while len(queue) or running:
         threads = max(1, sum(client.nthreads().values()))
         while len(queue) and len(running) < AHEAD * threads:

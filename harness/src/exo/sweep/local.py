@@ -33,7 +33,7 @@ def run(task: Task, queue: Queue, *, workers: int) -> Iterator[Kept]:
                     names = kept[0]
                     yield kept
             except BrokenProcessPool:
-                lost = [i for chunk in running.values() for i in queue.give_back(chunk)]
+                lost = queue.give_back(list(running.values()))
                 if lost:
                     yield names, [Done(i, Outcome({}, ENDED), 0.0) for i in lost]
             finally:
@@ -57,7 +57,7 @@ def _until_broken(
 ) -> Iterator[Kept]:
     while len(queue) or running:
         # One more than work: no worker waits for this process.
-        while len(queue) and len(running) < workers + 1:
+        while len(queue) and len(running) < (1 if queue.suspects else workers + 1):
             chunk = queue.next()
             running[pool.submit(run_chunk, task, chunk)] = chunk
         ended, _ = wait(running, return_when=FIRST_COMPLETED)
