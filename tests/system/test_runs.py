@@ -11,7 +11,7 @@ import pytest
 import exo
 from exo import experiment, loop, scenario, selection
 from exo.errors import ExoError
-from exo.runs import ERROR, Batch
+from exo.runs import FAILURE, Batch
 
 WALL = "passive_bounded_5_0.5"
 
@@ -32,7 +32,7 @@ def equal(a: float, b: float) -> bool:
 def test_each_row_is_what_a_run_of_its_own_gives(engine: loop.Engine, fmu_dir: Path) -> None:
     gains = [30.0, 5.0, 10.0, 30.0]
     found = exo.batch("wall", {"controller.K": gains}, cases=[WALL], engine=engine, fmu_dir=fmu_dir)
-    assert found[ERROR].null_count == len(gains)
+    assert found[FAILURE].null_count == len(gains)
     for i, K in enumerate(gains):
         wanted = alone("wall", WALL, fmu_dir, controller__K=str(K))
         for name in found.column_names:
@@ -54,7 +54,7 @@ def test_all_cases_and_ratios_of_the_arm_in_one_row(fmu_dir: Path) -> None:
 
 def test_a_row_that_fails_is_a_row_with_its_reason_and_the_next_one_is_unharmed(fmu_dir: Path) -> None:
     found = exo.batch("wall", {"controller.K": [30.0, -1.0, 30.0]}, cases=[WALL], fmu_dir=fmu_dir).to_pydict()
-    assert "K = -1 N.s/m, expected a value from" in found[ERROR][1]
+    assert "K = -1 N.s/m, expected a value from" in found[FAILURE][1]
     assert math.isnan(found["release_delay"][1])
     assert found["release_delay"][0] == found["release_delay"][2] > 0.0
 
@@ -65,7 +65,7 @@ def test_rows_set_forces_and_times_too(fmu_dir: Path) -> None:
         runs.check([dict.fromkeys(rows, 1.0)])
         looked = [runs.run(dict(zip(rows, values, strict=True))) for values in zip(*rows.values(), strict=True)]
     assert all(one.error is None for one in looked)
-    refused = exo.batch("wall", {"duration": [2.001]}, cases=[WALL], fmu_dir=fmu_dir)[ERROR][0].as_py()
+    refused = exo.batch("wall", {"duration": [2.001]}, cases=[WALL], fmu_dir=fmu_dir)[FAILURE][0].as_py()
     assert "no multiple of the step" in refused
 
 
@@ -77,7 +77,7 @@ def test_rows_that_branch_off_equal_runs_whose_gain_changes_then(engine: loop.En
     own = exo.batch("wall", {"controller.K": [30.0]}, **run).to_pydict()
     found = exo.batch("wall", {"controller.K": gains}, branch_at=19.0, **run).to_pydict()
     backwards = exo.batch("wall", {"controller.K": gains[::-1]}, branch_at=19.0, **run).to_pydict()
-    for name in [one for one in found if one != ERROR]:
+    for name in [one for one in found if one != FAILURE]:
         assert equal(found[name][0], own[name][0]), name
         assert all(equal(a, b) for a, b in zip(found[name], backwards[name][::-1], strict=True)), name
     assert len(set(found["release_delay"])) == 3
@@ -114,5 +114,5 @@ def test_a_branch_beyond_the_run_is_named(fmu_dir: Path) -> None:
 def test_arrow_and_numpy_go_in(fmu_dir: Path) -> None:
     given = pa.table({"controller.K": np.linspace(10.0, 30.0, 3), "controller.law": np.array([3, 4, 4])})
     found = exo.batch("wall", given, cases=[WALL], fmu_dir=fmu_dir)
-    assert found[ERROR].null_count == 3
+    assert found[FAILURE].null_count == 3
     assert found["controller.law"].to_pylist() == [3, 4, 4]

@@ -2,6 +2,8 @@
 
 import json
 import os
+import re
+import shutil
 import signal
 import socket
 import subprocess
@@ -19,7 +21,7 @@ import pytest
 
 from exo import sweep
 from exo.errors import ExoError
-from exo.runs import ERROR
+from exo.runs import FAILURE
 from exo.sweep import store, study
 from exo.sweep.pictures import front
 
@@ -153,7 +155,7 @@ def test_a_row_that_fails_is_a_row_with_its_reason(file: Path, fmu_dir: Path, tm
     file.write_text(WALL.replace("[10.0, 20.0, 30.0]", "[10.0, -1.0]"))
     done = sweep.sweep(file, out=tmp_path / "out", workers=2, fmu_dir=fmu_dir)
     assert done.failed == 2
-    errors = done.table[ERROR].to_pylist()
+    errors = done.table[FAILURE].to_pylist()
     assert errors[:2] == [None, None]
     assert all("K = -1" in text and "expected a value from" in text for text in errors[2:])
 
@@ -174,7 +176,7 @@ def test_a_worker_that_ends_costs_its_row_and_no_other(fmu_dir: Path, tmp_path: 
     )
     monkeypatch.setenv("PYTHONPATH", str(tmp_path))
     done = sweep.sweep(file, out=tmp_path / "out", workers=2, fmu_dir=fmu_dir)
-    errors = dict(zip(done.table["controller.K"].to_pylist(), done.table[ERROR].to_pylist(), strict=True))
+    errors = dict(zip(done.table["controller.K"].to_pylist(), done.table[FAILURE].to_pylist(), strict=True))
     assert done.failed == 2
     assert errors[10.0] is None
     assert errors[30.0] is None
@@ -335,9 +337,36 @@ def test_the_table_opens_in_parquet_with_what_was_asked_for_beside_it(
         "controller.M_n",
         "release_delay",
         "tank",
-        "error",
+        "failure",
         "seconds",
     ]
     told = json.loads((done.folder / store.STUDY).read_text())
     assert told["study"]["sampling"]["seed"] == 1
     assert set(told["fmus"]) == {"Testbed.fmu", "TestbedController.fmu"}
+
+
+@pytest.mark.parametrize("name", sweep.built_in())
+def test_each_study_that_comes_along_runs_and_draws(name: str, fmu_dir: Path, tmp_path: Path) -> None:
+    """A few of its runs: what it measures is there, and what it draws."""
+    text = sweep.built_in()[name].read_text()
+    small = re.sub(
+        r"^samples = \d+$", "samples = 8", re.sub(r"^count = \d+$", "count = 3", text, flags=re.M), flags=re.M
+    )
+    shutil.copytree(sweep.built_in()[name].parent / "scenarios", tmp_path / "scenarios")
+    (tmp_path / "study.toml").write_text(small)
+    done = sweep.sweep(tmp_path / "study.toml", out=tmp_path / "out", workers=2, fmu_dir=fmu_dir)
+    assert done.failed == 0, done.table[FAILURE].to_pylist()
+    assert len(done.pictures) == len(sweep.load(name)[0].figures) > 0
+
+
+def test_the_stability_map_is_where_exo_tune_puts_it(fmu_dir: Path, tmp_path: Path) -> None:
+    """What grows is beyond the predicted limit, what decays is below, for three masses from 5 to 60 N·s/m."""
+    text = sweep.built_in()["stability_map"].read_text()
+    small = text.replace("count = 56", "count = 4").replace("count = 60", "count = 14")
+    assert small.count("count = ") == 2
+    (tmp_path / "study.toml").write_text(small)
+    done = sweep.sweep(tmp_path / "study.toml", out=tmp_path / "out", workers=2, fmu_dir=fmu_dir)
+    grows = np.array(done.table["grows"].to_pylist()) > 0.5
+    share = np.array(done.table["limit_share"].to_pylist())
+    assert 20 < grows.sum() < len(grows) - 20
+    assert (grows == (share > 1.0)).all(), share[grows != (share > 1.0)]

@@ -190,7 +190,9 @@ def reproduce(
 
 @app.command("sweep")
 def run_sweep(
-    study: Annotated[Path, typer.Argument(help="A study, a .toml file: which parameters vary, what is measured.")],
+    study: Annotated[
+        str, typer.Argument(help=f"A study: {', '.join(sweep.built_in())}, or a .toml file that says what varies.")
+    ],
     *,
     workers: Annotated[int | None, typer.Option(help="Processes; else one for each processor.")] = None,
     scheduler: Annotated[
@@ -205,7 +207,7 @@ def run_sweep(
 ) -> None:
     """Runs a study's rows, on all processors or a cluster; goes on where an earlier sweep was stopped."""
     with sentences(), progress_bar() as progress:
-        task = progress.add_task(study.stem, total=None)
+        task = progress.add_task(Path(study).stem, total=None)
         done = sweep.sweep(
             study,
             out=out,
@@ -216,10 +218,10 @@ def run_sweep(
             fresh=fresh,
             tell=lambda far: progress.update(task, completed=far.done, total=far.all),
         )
-    failed = f", {done.failed} of them failed: column error says why" if done.failed else ""
-    console.print(f"{done.folder / 'runs.parquet'}: {done.table.num_rows} runs{failed}", markup=False)
-    for path in done.pictures:
-        console.print(str(path), markup=False)
+        failed = f", {done.failed} of them failed: column failure says why" if done.failed else ""
+        console.print(f"{done.folder / 'runs.parquet'}: {done.table.num_rows} runs{failed}", markup=False)
+        for path in done.pictures:
+            console.print(str(path), markup=False)
 
 
 @app.command()

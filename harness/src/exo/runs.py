@@ -41,7 +41,7 @@ from exo.scenario import PROFILE, Case, Scenario, Segment, Value
 #: Keys of a row that are no FMU's.
 TIMES = ("duration", "step")
 #: Column of a result table: why a row has no numbers; null where it has.
-ERROR = "error"
+FAILURE = "failure"
 
 Row = Mapping[str, Value]
 
@@ -56,11 +56,11 @@ def batch(
     engine: Engine | None = None,
     fmu_dir: Path | None = None,
 ) -> pa.Table:
-    """Runs the scenario once for each row of `parameters`; returns the rows with a column for each metric and `error`.
+    """Runs the scenario once for each row; returns the rows with a column for each metric and `failure`.
 
     `scenario` is one, an id or a file; `cases` are ids or patterns, all cases without them; `metrics` are ids of
-    metrics and ratios, all without them. `branch_at` (s) as above.
-    `engine` is native where it is installed. A row that fails is a row with its reason in `error` and NaN for numbers.
+    metrics and ratios, all without them. `branch_at` (s) as above. `engine` is native where it is installed. A row that
+    fails is a row with its reason in `failure`, and NaN for numbers.
     ScenarioError and FmuError name what is wrong with all rows: a key, a scenario, an archive.
     """
     rows = rows_of(parameters)
@@ -95,7 +95,7 @@ def table(rows: Sequence[Row], outcomes: Sequence[Outcome], names: Sequence[str]
     columns: dict[str, Any] = {key: pa.array([row.get(key) for row in rows]) for key in keys}
     for name in names:
         columns[name] = pa.array([one.numbers.get(name, float("nan")) for one in outcomes], pa.float64())
-    columns[ERROR] = pa.array([one.error for one in outcomes], pa.string())
+    columns[FAILURE] = pa.array([one.error for one in outcomes], pa.string())
     return pa.table(columns)
 
 

@@ -131,6 +131,12 @@ def hand_limit_of(run: Recording, *, controller: str, plant: str, operator: str)
 
 
 @metric
+def hand_limit(run: Recording, *, controller: str, plant: str, operator: str) -> float:
+    """`hand_limit_of`: the stiffest hand (N/m) of the operator's b_h that is stable."""
+    return hand_limit_of(run, controller=controller, plant=plant, operator=operator)
+
+
+@metric
 def hand_limit_share(run: Recording, *, controller: str, plant: str, operator: str) -> float:
     """The hand's stiffness over `hand_limit_of`."""
     limit = hand_limit_of(run, controller=controller, plant=plant, operator=operator)

@@ -21,15 +21,15 @@ import pyarrow as pa
 from exo.errors import ExoError
 from exo.fmu import find_fmu_dir
 from exo.loop import Engine
-from exo.runs import ERROR, Batch
+from exo.runs import FAILURE, Batch
 from exo.sweep import cluster, local, pictures
 from exo.sweep.chunks import Queue
 from exo.sweep.local import Kept
 from exo.sweep.store import ROW, SECONDS, Store
-from exo.sweep.study import Study, check_figures, load
+from exo.sweep.study import Study, built_in, check_figures, load
 from exo.sweep.work import Task
 
-__all__ = ["Progress", "Study", "Swept", "load", "sweep"]
+__all__ = ["Progress", "Study", "Swept", "built_in", "load", "sweep"]
 
 
 @dataclass(frozen=True)
@@ -53,11 +53,11 @@ class Swept:
     @property
     def failed(self) -> int:
         """Rows without numbers."""
-        return int(self.table.num_rows - self.table[ERROR].null_count)
+        return int(self.table.num_rows - self.table[FAILURE].null_count)
 
 
 def sweep(
-    path: Path,
+    name: str | Path,
     *,
     out: Path = Path("results/sweeps"),
     workers: int | None = None,
@@ -67,13 +67,13 @@ def sweep(
     fresh: bool = False,
     tell: Callable[[Progress], None] = lambda _progress: None,
 ) -> Swept:
-    """Runs the study of a file, or what is left of it; returns the table and the pictures that were drawn.
+    """Runs a study, by id or file, or what is left of it; returns the table and the pictures that were drawn.
 
     `workers` are processes of this machine, all of it without; `scheduler` is the address of a Dask cluster in their
     place. `fresh` forgets what an earlier sweep has left. `tell` is told after each chunk of rows.
     ExoError names what is wrong with study, folder or cluster; a row that fails is a row with its reason.
     """
-    study, scenario = load(path)
+    study, scenario = load(name)
     rows = study.rows()
     folder = find_fmu_dir(fmu_dir)
     names = sorted({part.archive for part in scenario.components.values()})
@@ -84,6 +84,11 @@ def sweep(
         scenario, cases=study.cases, metrics=study.metrics, branch_at=study.branch_at, engine=engine, fmu_dir=folder
     ) as runs:
         runs.check(rows[:1])
+        taken = {ROW, FAILURE, SECONDS, *rows[0]} & set(runs.names)
+        if taken:
+            raise ExoError(
+                f"{study.id}: a metric is called {', '.join(sorted(taken))}, as another column of the results"
+            )
         check_figures(study, [ROW, *rows[0], *runs.names, SECONDS])
     archives = {name: (folder / name).read_bytes() for name in names}
     checksums = {name: hashlib.sha256(data).hexdigest() for name, data in archives.items()}

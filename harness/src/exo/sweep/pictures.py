@@ -6,11 +6,13 @@ from typing import Any
 import matplotlib as mpl
 import numpy as np
 import pyarrow as pa
-from matplotlib import colors, pyplot, ticker
+import pyarrow.compute as pc
+from matplotlib import colors, pyplot
+from matplotlib.patches import Patch
 from numpy.typing import NDArray
 
 from exo.errors import ExoError
-from exo.looks import BLUE, GREEN, VERMILLION
+from exo.looks import BLUE, VERMILLION
 from exo.plots import STYLE
 from exo.sweep.study import Figure, Study
 
@@ -20,6 +22,8 @@ mpl.use("Agg")
 SIZE, DPI = (7.5, 5.0), 120
 #: Points up to which each is drawn large.
 FEW = 500
+#: Of a map that says no or yes.
+YES_OR_NO = ("#dceefa", "#f8c98b")
 
 Array = NDArray[np.float64]
 
@@ -27,7 +31,9 @@ Array = NDArray[np.float64]
 def draw(figure: Figure, study: Study, table: pa.Table, folder: Path) -> Path:
     """Draws one figure into `<folder>/<id>.png`. ExoError, if no row has what it draws."""
     path = folder / f"{figure.id}.png"
-    wanted = [name for name in (figure.x, figure.y, figure.color) if name is not None]
+    for name, value in figure.where.items():
+        table = table.filter(pc.equal(table[name], value))
+    wanted = [name for name in (figure.x, figure.y, figure.color, figure.contour) if name is not None]
     columns = {name: _numbers(table, name) for name in wanted}
     good = np.all([np.isfinite(column) for column in columns.values()], axis=0)
     if not good.any():
@@ -35,9 +41,12 @@ def draw(figure: Figure, study: Study, table: pa.Table, folder: Path) -> Path:
     columns = {name: column[good] for name, column in columns.items()}
     with mpl.rc_context(STYLE):  # type: ignore[arg-type]
         drawing, axes = pyplot.subplots(figsize=SIZE, dpi=DPI, layout="constrained")
-        {"map": _map, "scatter": _scatter, "histogram": _histogram, "front": _front}[figure.kind](axes, figure, columns)
+        {"map": _map, "scatter": _scatter, "histogram": _histogram, "front": _front}[figure.kind](
+            axes, study, figure, columns
+        )
         left_out = len(good) - int(good.sum())
         note = f"{len(good)} runs" + (f", {left_out} of them without these numbers" if left_out else "")
+        axes.set_axisbelow(True)
         axes.set_title(figure.title, loc="left", fontsize=11)
         axes.set_title(note, loc="right", fontsize=8, color="0.4")
         axes.set_xlabel(figure.x_label or _label(study, figure.x))
@@ -63,11 +72,13 @@ def _numbers(table: pa.Table, name: str) -> Array:
     return np.asarray(column.to_numpy(), dtype=np.float64)
 
 
-def _map(axes: Any, figure: Figure, columns: dict[str, Array]) -> None:
+def _map(axes: Any, study: Study, figure: Figure, columns: dict[str, Array]) -> None:
     assert figure.y is not None
     assert figure.color is not None
     x, y, z = columns[figure.x], columns[figure.y], columns[figure.color]
     norm = colors.LogNorm() if "color" in figure.log else None
+    yes_or_no = set(np.unique(z)) <= {0.0, 1.0}
+    colormap: Any = colors.ListedColormap(YES_OR_NO) if yes_or_no else "viridis"
     if norm is not None and not (z > 0.0).all():
         # What is 0 has no logarithm: it gets the color of the smallest number.
         z = np.maximum(z, z[z > 0.0].min(initial=1.0))
@@ -75,22 +86,47 @@ def _map(axes: Any, figure: Figure, columns: dict[str, Array]) -> None:
     if len(across) * len(up) == len(z) and min(len(across), len(up)) > 1:
         grid = np.full((len(up), len(across)), np.nan)
         grid[np.searchsorted(up, y), np.searchsorted(across, x)] = z
-        drawn = axes.pcolormesh(across, up, grid, shading="nearest", norm=norm, cmap="viridis")
-        if figure.limit is not None and np.nanmin(grid) < figure.limit < np.nanmax(grid):
-            _limit(axes, axes.contour(across, up, grid, levels=[figure.limit], colors=VERMILLION, linewidths=2), figure)
+        edges = [_edges(points, log=name in figure.log) for name, points in (("x", across), ("y", up))]
+        drawn = axes.pcolormesh(*edges, grid, norm=norm, cmap=colormap)
+        lines = np.full_like(grid, np.nan)
+        lines[np.searchsorted(up, y), np.searchsorted(across, x)] = columns[figure.contour or figure.color]
+        if figure.limit is not None and np.nanmin(lines) < figure.limit < np.nanmax(lines):
+            _limit(
+                axes, axes.contour(across, up, lines, levels=[figure.limit], colors=VERMILLION, linewidths=2), figure
+            )
     else:
         size = 24 if len(z) <= FEW else 6
-        drawn = axes.scatter(x, y, c=z, s=size, norm=norm, cmap="viridis")
-        if figure.limit is not None and len(z) > 3 and z.min() < figure.limit < z.max():
-            _limit(axes, axes.tricontour(x, y, z, levels=[figure.limit], colors=VERMILLION, linewidths=2), figure)
-    axes.figure.colorbar(drawn, ax=axes, label=figure.color_label or figure.color)
+        drawn = axes.scatter(x, y, c=z, s=size, norm=norm, cmap=colormap)
+        of = columns[figure.contour or figure.color]
+        if figure.limit is not None and len(of) > 3 and of.min() < figure.limit < of.max():
+            _limit(axes, axes.tricontour(x, y, of, levels=[figure.limit], colors=VERMILLION, linewidths=2), figure)
+    axes.grid(visible=False)
+    if yes_or_no:
+        name = figure.color_label or _label(study, figure.color)
+        patches = [
+            Patch(color=color, label=f"{name}: {word}") for color, word in zip(YES_OR_NO, ("no", "yes"), strict=True)
+        ]
+        axes.legend(handles=patches, loc="upper left", fontsize=8)
+    else:
+        axes.figure.colorbar(drawn, ax=axes, label=figure.color_label or _label(study, figure.color))
+
+
+def _edges(points: Array, *, log: bool) -> Array:
+    """Edges of cells around the points, half way between them."""
+    at = np.log(points) if log else points
+    between = 0.5 * (at[1:] + at[:-1])
+    edges = np.concatenate([[2.0 * at[0] - between[0]], between, [2.0 * at[-1] - between[-1]]])
+    return np.exp(edges) if log else edges
 
 
 def _limit(axes: Any, contour: Any, figure: Figure) -> None:
-    axes.clabel(contour, fmt=ticker.FuncFormatter(lambda value, _: f"{figure.color_label or figure.color} = {value:g}"))
+    name = figure.contour_label or f"{figure.contour or figure.color_label or figure.color} = {figure.limit:g}"
+    # On a plate of its own: the line crosses all colors.
+    for text in axes.clabel(contour, fmt=lambda _: name, fontsize=9, inline=False):
+        text.set(color="black", bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.85, "pad": 1.5})
 
 
-def _scatter(axes: Any, figure: Figure, columns: dict[str, Array]) -> None:
+def _scatter(axes: Any, study: Study, figure: Figure, columns: dict[str, Array]) -> None:
     assert figure.y is not None
     x, y = columns[figure.x], columns[figure.y]
     size = 24 if len(x) <= FEW else 5
@@ -99,17 +135,17 @@ def _scatter(axes: Any, figure: Figure, columns: dict[str, Array]) -> None:
     else:
         norm = colors.LogNorm() if "color" in figure.log else None
         drawn = axes.scatter(x, y, c=columns[figure.color], s=size, norm=norm, cmap="viridis")
-        axes.figure.colorbar(drawn, ax=axes, label=figure.color_label or figure.color)
+        axes.figure.colorbar(drawn, ax=axes, label=figure.color_label or _label(study, figure.color))
     if figure.limit is not None:
         axes.axhline(figure.limit, color=VERMILLION)
 
 
-def _histogram(axes: Any, figure: Figure, columns: dict[str, Array]) -> None:
+def _histogram(axes: Any, _study: Study, figure: Figure, columns: dict[str, Array]) -> None:
     x = columns[figure.x]
     bins: Any = "auto"
     if "x" in figure.log and (x > 0.0).all() and x.max() > x.min():
         bins = np.geomspace(x.min(), x.max(), 40)
-    axes.hist(x, bins=bins, color=BLUE)
+    axes.hist(x, bins=bins, color=BLUE, alpha=0.55)
     low, middle, high = np.percentile(x, [5.0, 50.0, 95.0])
     for value, name in ((low, "5 %"), (middle, "median"), (high, "95 %")):
         axes.axvline(value, color=VERMILLION, linewidth=1)
@@ -126,13 +162,14 @@ def _histogram(axes: Any, figure: Figure, columns: dict[str, Array]) -> None:
     axes.set_ylabel("runs")
 
 
-def _front(axes: Any, figure: Figure, columns: dict[str, Array]) -> None:
+def _front(axes: Any, study: Study, figure: Figure, columns: dict[str, Array]) -> None:
     assert figure.y is not None
     x, y = columns[figure.x], columns[figure.y]
-    _scatter(axes, figure, columns)
-    best = front(x, y)
-    axes.plot(x[best], y[best], color=GREEN, marker="o", markersize=4, label="no other run is better in both")
-    axes.legend(loc="upper right", fontsize=8)
+    _scatter(axes, study, figure, columns)
+    signs = [-1.0 if name in figure.larger else 1.0 for name in ("x", "y")]
+    best = front(signs[0] * x, signs[1] * y)
+    axes.plot(x[best], y[best], color=VERMILLION, marker="o", markersize=4, label="no other run is better in both")
+    axes.legend(loc="best", fontsize=8)
 
 
 def front(x: Array, y: Array) -> NDArray[np.intp]:

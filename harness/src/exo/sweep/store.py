@@ -24,7 +24,7 @@ import pyarrow.parquet as pq
 
 from exo import folder
 from exo.errors import ExoError
-from exo.runs import ERROR, Outcome
+from exo.runs import FAILURE, Outcome
 from exo.scenario import Scenario, Value
 from exo.sweep.study import Study
 
@@ -134,7 +134,7 @@ class Store:
                 name: pa.array([one.outcome.numbers.get(name, float("nan")) for one in done], pa.float64())
                 for name in names
             },
-            ERROR: pa.array([one.outcome.error for one in done], pa.string()),
+            FAILURE: pa.array([one.outcome.error for one in done], pa.string()),
             SECONDS: pa.array([one.seconds for one in done], pa.float64()),
         }
         sink = pa.BufferOutputStream()

@@ -126,7 +126,7 @@ class Figure(Data):
     """A picture of the results.
 
     `map`: `color` over `x` and `y`, as the cells of a grid or as points. `scatter`: `y` over `x`. `histogram`: of `x`.
-    `front`: `y` over `x`, both to be small, with the runs that no other one beats in both.
+    `front`: `y` over `x`, both to be small or `larger`, with the runs that no other one beats in both.
     """
 
     id: Identifier
@@ -135,8 +135,14 @@ class Figure(Data):
     x: str
     y: str | None = None
     color: str | None = None
-    #: A line where `color` (of a map) or `y` has this value.
+    #: A line where `contour`, or else `color` (of a map) or `y`, has this value.
     limit: float | None = None
+    contour: str | None = None
+    contour_label: Line = ""
+    #: Only of the runs whose columns have these values.
+    where: dict[str, float] = Field(default={})
+    #: Of a front: on which axes more is better.
+    larger: tuple[Literal["x", "y"], ...] = ()
     x_label: Line = ""
     y_label: Line = ""
     color_label: Line = ""
@@ -200,8 +206,24 @@ def _shares(method: str, dimensions: int, samples: int, seed: int) -> np.ndarray
     return np.random.default_rng(seed).random((samples, dimensions))
 
 
-def load(path: Path) -> tuple[Study, Scenario]:
-    """A study from its file, with its scenario. ExoError names file, key, value and what was expected."""
+def built_in() -> dict[str, Path]:
+    """The studies that come with the harness: id → file."""
+    return {path.stem: path for path in sorted((Path(__file__).parents[1] / "studies").glob("*.toml"))}
+
+
+def load(name: str | Path) -> tuple[Study, Scenario]:
+    """A study by id, or from a path that ends in `.toml`, with its scenario.
+
+    ExoError names file, key, value and what was expected.
+    """
+    path = Path(name)
+    if path.suffix != ".toml":
+        known = built_in()
+        if str(name) not in known:
+            raise ExoError(
+                f"unknown study {name}{close_matches(str(name), known)}; expected one of these, or a .toml file"
+            )
+        path = known[str(name)]
     try:
         text = path.read_text(encoding="utf-8")
     except OSError as error:
@@ -227,6 +249,6 @@ def load(path: Path) -> tuple[Study, Scenario]:
 def check_figures(study: Study, columns: list[str]) -> None:
     """ExoError, if a figure draws what no column of the results has."""
     for figure in study.figures:
-        for name in (figure.x, figure.y, figure.color):
+        for name in (figure.x, figure.y, figure.color, figure.contour, *figure.where):
             if name is not None and name not in columns:
                 raise ExoError(f"{study.id}: figure {figure.id}: no column {name}{close_matches(name, columns)}")
