@@ -1,5 +1,6 @@
 """The two engines give the same recordings bit for bit, and the same errors."""
 
+import json
 import threading
 from contextlib import ExitStack
 from dataclasses import replace
@@ -7,11 +8,13 @@ from pathlib import Path
 from time import perf_counter
 from typing import Any
 
+import numpy as np
 import pytest
 
 from exo import loop, simulate
 from exo.errors import ExoError, FmuError
 from exo.fmu import Archive
+from exo.pace import Deadlines
 from exo.recording import Recording
 from exo.scenario import Case, Coupling, Scenario, Segment, built_in, load
 
@@ -124,3 +127,38 @@ def test_the_command_line_runs_with_it_and_says_so(tmp_path: Path) -> None:
     answer = exo("run", "wall", "--case", "passive_bounded_5_0.5", "--engine", "native", "--out", tmp_path)
     assert answer.exit_code == 0, answer.stderr
     assert '"engine": "native"' in (tmp_path / "wall" / "metrics.json").read_text()
+
+
+@pytest.mark.parametrize("engine", loop.ENGINES)
+def test_a_run_by_the_clock_takes_its_time_and_finds_the_same(
+    engine: loop.Engine, archives: dict[str, Archive]
+) -> None:
+    scenario = load("wall")
+    plan = replace(simulate.plan(scenario=scenario, case=scenario.cases[0]), duration=0.4)
+    plain = simulate.simulate(plan=plan, archives=archives)
+    paced = simulate.simulate(plan=plan, archives=archives, engine=engine, real_time=True)
+    assert_equal([plain, paced])
+    assert plain.deadlines is None
+    found = paced.deadlines
+    assert found is not None
+    # The last step begins 199 periods after the first; how much later, the machine decides.
+    assert paced.wall_time >= 199 * 0.002
+    assert (found.steps, found.step) == (200, 0.002)
+    assert 0.0 <= found.late_median <= found.late_99 <= found.late_max
+    assert 0.0 < found.busy_median <= found.busy_99 <= found.busy_max
+
+
+def test_an_overrun_is_a_step_that_ends_after_the_next_one_is_due() -> None:
+    late, busy = np.array([0.0, 0.1, 0.9, 0.0]), np.array([0.2, 0.95, 0.05, 1.5])
+    found = Deadlines.of(late, busy, 1.0)
+    assert found.overruns == 2
+    assert "4 steps of 1000 ms by the clock: 2 overruns" in found.sentence()
+
+
+def test_the_command_line_tells_the_deadlines(tmp_path: Path) -> None:
+    case = ("--case", "passive_bounded_5_0.5", "--duration", "0.2")
+    answer = exo("run", "wall", *case, "--real-time", "--out", tmp_path)
+    assert answer.exit_code == 0, answer.stderr
+    assert "100 steps of 2 ms by the clock" in " ".join(answer.stdout.split())
+    told = json.loads((tmp_path / "wall" / "metrics.json").read_text())["run"]["cases"]["passive_bounded_5_0.5"]
+    assert told["deadlines"]["steps"] == 100

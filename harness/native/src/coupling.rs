@@ -10,6 +10,8 @@ use std::time::{Duration, Instant};
 const OK: c_int = 0;
 /// Steps between two looks at the clock.
 const STEPS: usize = 64;
+/// How long before its time a paced step is waited for without sleep: what a sleep may be late by.
+const SPIN: Duration = Duration::from_micros(150);
 
 type Transfer = unsafe extern "C" fn(*mut c_void, *const c_uint, usize, *mut c_void) -> c_int;
 type DoStep = unsafe extern "C" fn(*mut c_void, c_double, c_double, c_int) -> c_int;
@@ -105,12 +107,24 @@ pub enum Ended {
     Failed(Failure),
 }
 
+/// Addresses of two columns with a number for each step, s: how late it began, and how long it took.
+#[derive(Clone, Copy, Debug)]
+pub struct Pace {
+    /// Of the lateness.
+    pub late: usize,
+    /// Of the time that the step's calls took.
+    pub busy: usize,
+}
+
 /// A run in progress.
 pub struct Loop {
     components: Vec<Component>,
     steps: usize,
     step: f64,
     next: usize,
+    pace: Option<Pace>,
+    /// When step 0 would have begun, of a paced run that has begun.
+    origin: Option<Instant>,
 }
 
 impl Loop {
@@ -119,17 +133,28 @@ impl Loop {
     /// # Safety
     /// As long as it lives: each address is of what its name says, and of no other thread's at the same time; each buffer has
     /// a row for each step.
-    pub unsafe fn new(components: Vec<Component>, first: usize, steps: usize, step: f64) -> Self {
+    pub unsafe fn new(
+        components: Vec<Component>,
+        first: usize,
+        steps: usize,
+        step: f64,
+        pace: Option<Pace>,
+    ) -> Self {
         Self {
             components,
             steps,
             step,
             next: first,
+            pace,
+            origin: None,
         }
     }
 
     /// Makes steps until all are made, one fails or about `patience` is over.
     pub fn advance(&mut self, patience: Duration) -> Ended {
+        if let Some(pace) = self.pace {
+            return self.keep_pace(pace, patience);
+        }
         let began = Instant::now();
         while self.next < self.steps {
             let until = self.steps.min(self.next + STEPS);
@@ -139,6 +164,49 @@ impl Loop {
                 }
             }
             self.next = until;
+            if began.elapsed() >= patience && self.next < self.steps {
+                return Ended::Interrupted;
+            }
+        }
+        Ended::Done
+    }
+
+    /// The same by the clock: step k begins k steps after step 0, or as soon as it can.
+    fn keep_pace(&mut self, pace: Pace, patience: Duration) -> Ended {
+        let began = Instant::now();
+        let after = |k: usize| Duration::from_secs_f64(k as f64 * self.step);
+        let origin = *self
+            .origin
+            .get_or_insert_with(|| began.checked_sub(after(self.next)).unwrap_or(began));
+        while self.next < self.steps {
+            let k = self.next;
+            let due = origin + after(k);
+            loop {
+                let left = due.saturating_duration_since(Instant::now());
+                if left.is_zero() {
+                    break;
+                }
+                if began.elapsed() >= patience {
+                    return Ended::Interrupted;
+                }
+                if left > SPIN {
+                    std::thread::sleep((left - SPIN).min(patience));
+                } else {
+                    std::hint::spin_loop();
+                }
+            }
+            let begins = Instant::now();
+            let made = self.make(k);
+            // SAFETY: the contract of `new`: both columns have a number for each step.
+            unsafe {
+                *(pace.late as *mut f64).add(k) =
+                    begins.saturating_duration_since(due).as_secs_f64();
+                *(pace.busy as *mut f64).add(k) = begins.elapsed().as_secs_f64();
+            }
+            if let Err(failure) = made {
+                return Ended::Failed(failure);
+            }
+            self.next = k + 1;
             if began.elapsed() >= patience && self.next < self.steps {
                 return Ended::Interrupted;
             }
@@ -253,7 +321,7 @@ mod tests {
         OK
     }
 
-    unsafe extern "C" fn step(adder: *mut c_void, t: f64, _: f64, _: c_int) -> c_int {
+    unsafe extern "C" fn add(adder: *mut c_void, t: f64, _: f64, _: c_int) -> c_int {
         // SAFETY: as above.
         let adder = unsafe { &mut *adder.cast::<Adder>() };
         adder.output = adder.input + 1.0;
@@ -262,6 +330,10 @@ mod tests {
 
     /// A ring of two: each gets what the other put out; the first reads the row before.
     fn ring(fails_at: f64, steps: usize) -> (Vec<f64>, Ended) {
+        paced_ring(fails_at, steps, 0.5, None)
+    }
+
+    fn paced_ring(fails_at: f64, steps: usize, step: f64, pace: Option<Pace>) -> (Vec<f64>, Ended) {
         let mut adders = [f64::INFINITY, fails_at].map(|fails_at| Adder {
             input: 0.0,
             output: 0.0,
@@ -282,7 +354,7 @@ mod tests {
             };
             components.push(Component {
                 instance: (&raw mut adders[i]) as usize,
-                do_step: step as *const () as usize,
+                do_step: add as *const () as usize,
                 copies: vec![Copy {
                     target: inputs[i].as_mut_ptr() as usize,
                     target_size: 8,
@@ -295,7 +367,7 @@ mod tests {
             });
         }
         // SAFETY: all lives until the loop has ended, and there is a row for each step.
-        let mut coupled = unsafe { Loop::new(components, 0, steps, 0.5) };
+        let mut coupled = unsafe { Loop::new(components, 0, steps, step, pace) };
         let ended = loop {
             match coupled.advance(Duration::ZERO) {
                 Ended::Interrupted => {}
@@ -325,5 +397,20 @@ mod tests {
         };
         assert_eq!(ended, Ended::Failed(failure));
         assert_eq!((second[100], second[101]), (200.0, 0.0));
+    }
+
+    #[test]
+    fn a_paced_run_takes_its_time_and_says_how_late_each_step_was() {
+        let (mut late, mut busy) = (vec![-1.0; 40], vec![-1.0; 40]);
+        let pace = Pace {
+            late: late.as_mut_ptr() as usize,
+            busy: busy.as_mut_ptr() as usize,
+        };
+        let began = Instant::now();
+        let (second, ended) = paced_ring(f64::INFINITY, 40, 2e-3, Some(pace));
+        assert_eq!((ended, second[40]), (Ended::Done, 80.0));
+        // The last step begins 39 periods after the first one; nothing here says how much later.
+        assert!(began.elapsed() >= Duration::from_millis(78));
+        assert!(late.iter().chain(&busy).all(|time| *time >= 0.0));
     }
 }

@@ -1,6 +1,6 @@
 //! The loop as the Python module `exo_native`.
 
-use crate::coupling::{Call, Component, Copy, Ended, Loop};
+use crate::coupling::{Call, Component, Copy, Ended, Loop, Pace};
 use pyo3::prelude::*;
 use std::time::Duration;
 
@@ -22,6 +22,9 @@ type ComponentAddresses = (
 
 /// Makes the steps from number `first` to before number `steps`, each of `step` seconds, step 0 at t = 0. Releases the interpreter meanwhile.
 ///
+/// `pace` are the addresses of two columns with a number for each step, s: then the clock says when a step begins, and the
+/// columns get how late it was and how long it took.
+///
 /// Returns None, or what returned another status than fmi2OK: the component's number, "write", "step" or "read", the number
 /// of the call among those, the status, the number of the step.
 ///
@@ -31,17 +34,19 @@ type ComponentAddresses = (
 /// # Safety for the caller in Python
 /// The addresses must be what their names say and live until this returns; a row must be there for each step.
 #[pyfunction]
-#[pyo3(signature = (components, *, first, steps, step))]
+#[pyo3(signature = (components, *, first, steps, step, pace=None))]
 fn run(
     py: Python<'_>,
     components: Vec<ComponentAddresses>,
     first: usize,
     steps: usize,
     step: f64,
+    pace: Option<(usize, usize)>,
 ) -> PyResult<Option<(usize, &'static str, usize, i32, usize)>> {
     let components = components.into_iter().map(component).collect();
+    let pace = pace.map(|(late, busy)| Pace { late, busy });
     // SAFETY: the caller's contract, above.
-    let mut coupled = unsafe { Loop::new(components, first, steps, step) };
+    let mut coupled = unsafe { Loop::new(components, first, steps, step, pace) };
     loop {
         match py.detach(|| coupled.advance(PATIENCE)) {
             Ended::Interrupted => py.check_signals()?,

@@ -124,6 +124,9 @@ def run(
     ] = None,
     duration: Annotated[float | None, typer.Option(help="Another length of all cases, s.")] = None,
     step: Annotated[float | None, typer.Option(help="Another macro step, s.")] = None,
+    real_time: Annotated[
+        bool, typer.Option("--real-time", help="By the clock; says how late steps began and which ones overran.")
+    ] = False,
     everything: Annotated[bool, typer.Option("--all", help="Prints the numbers that pass, too.")] = False,
     signals: Signals = ALL,
     csv: Csv = False,
@@ -149,6 +152,7 @@ def run(
             signals=signals,
             csv=csv,
             engine=loop.named(engine),
+            real_time=real_time,
             out=out,
             fmu_dir=fmu_dir,
             tell=lambda done, folder: screen.print_run(
@@ -482,6 +486,7 @@ def _run_all(
     signals: str,
     csv: bool,
     engine: loop.Engine,
+    real_time: bool = False,
     out: Path,
     fmu_dir: Path | None,
     tell: Callable[[Experiment, Path], None],
@@ -502,6 +507,7 @@ def _run_all(
                 overrides=values | overrides,
                 given=given,
                 engine=engine,
+                real_time=real_time,
                 on_case=lambda _case, task=task: progress.advance(task),  # type: ignore[misc]
             )
             place = results.write(experiment=done, out=out, kept=written)

@@ -25,6 +25,7 @@ from exo import loop, profile
 from exo.errors import ExoError, FmuError, ScenarioError
 from exo.fmu import Archive, Instance, Kind, choices
 from exo.loop import Engine, Part, Wire
+from exo.pace import Pace
 from exo.plan import Plan
 from exo.recording import Recording
 from exo.scenario import PROFILE, Value
@@ -146,12 +147,12 @@ class Coupled:
         """The instants at which the steps begin (s)."""
         return np.arange(self._plan.steps, dtype=np.float64) * np.float64(self._plan.step)
 
-    def advance(self, *, until: int | None = None, engine: Engine = "fmpy") -> None:
-        """Makes the steps up to number `until`, or all that are left."""
+    def advance(self, *, until: int | None = None, engine: Engine = "fmpy", pace: Pace | None = None) -> None:
+        """Makes the steps up to number `until`, or all that are left; with `pace` by the clock."""
         end = self._plan.steps if until is None else min(until, self._plan.steps)
         began = perf_counter(), thread_time()
         parts = list(self._parts.values())
-        loop.run(parts, self._wires, first=self._next, steps=end, step=self._plan.step, engine=engine)
+        loop.run(parts, self._wires, first=self._next, steps=end, step=self._plan.step, engine=engine, pace=pace)
         self._wall_time += perf_counter() - began[0]
         self._cpu_time += thread_time() - began[1]
         self._next = end

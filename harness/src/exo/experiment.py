@@ -69,6 +69,7 @@ class Experiment:
                     },
                     "wall_time_s": self.recordings[case.id].wall_time,
                     "real_time_factor": self.recordings[case.id].real_time_factor,
+                    **_deadlines(self.recordings[case.id]),
                 }
                 for case in self.scenario.cases
             },
@@ -82,11 +83,12 @@ def run(
     overrides: Mapping[str, str] | None = None,
     given: Mapping[str, float] | None = None,
     engine: Engine = "fmpy",
+    real_time: bool = False,
     on_case: Callable[[Case], None] = lambda _case: None,
 ) -> Experiment:
     """Runs all cases. `overrides` are texts from the command line; `on_case` is told before each case.
 
-    `engine` makes the steps (`exo.loop`); ExoError when it is not installed.
+    `engine` makes the steps (`exo.loop`), `real_time` by the clock; ExoError when the engine is not installed.
 
     `given` are `duration` and `step` (s) where they have replaced the scenario's (`exo.selection.narrowed`).
     """
@@ -110,7 +112,8 @@ def run(
         for case in scenario.cases:
             on_case(case)
             recordings[case.id] = derived.added(
-                simulate(plan=plans[case.id], archives=archives, engine=engine), scenario.derived
+                simulate(plan=plans[case.id], archives=archives, engine=engine, real_time=real_time),
+                scenario.derived,
             )
         fmus = {name: _facts(archive) for name, archive in archives.items()}
         unwired = preflight.unwired(plans, archives)
@@ -126,6 +129,10 @@ def run(
         unwired=tuple(unwired),
         notes=tuple(notes),
     )
+
+
+def _deadlines(run: Recording) -> dict[str, Any]:
+    return {} if run.deadlines is None else {"deadlines": run.deadlines.as_json()}
 
 
 def _facts(archive: Archive) -> dict[str, str]:

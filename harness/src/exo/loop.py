@@ -11,6 +11,7 @@ from collections.abc import Mapping
 from ctypes import c_double, c_int, c_size_t, c_void_p, cast
 from dataclasses import dataclass
 from importlib import import_module
+from time import perf_counter
 from typing import Any, Literal, get_args
 
 import numpy as np
@@ -18,6 +19,7 @@ from numpy.typing import NDArray
 
 from exo.errors import ExoError, FmuError
 from exo.fmu import DTYPES, Instance, Kind, References
+from exo.pace import Pace
 
 Engine = Literal["fmpy", "native"]
 ENGINES: tuple[Engine, ...] = get_args(Engine)
@@ -124,17 +126,24 @@ class _Work:
 
 
 def run(
-    parts: list[Part], wires: list[Wire], *, steps: int, step: float, first: int = 0, engine: Engine = "fmpy"
+    parts: list[Part],
+    wires: list[Wire],
+    *,
+    steps: int,
+    step: float,
+    first: int = 0,
+    engine: Engine = "fmpy",
+    pace: Pace | None = None,
 ) -> None:
-    """Makes the steps from number `first` to before number `steps`; step 0 begins at t = 0.
+    """Makes the steps from number `first` to before number `steps`; step 0 begins at t = 0. With `pace` by the clock.
 
     FmuError names component, function and time of a call that fails.
     """
     work = [_work(part, [wire for wire in wires if wire.target is part]) for part in parts]
     if engine == "native":
-        _run_native(work, first, steps, step)
+        _run_native(work, first, steps, step, pace)
     else:
-        _run(work, first, steps, step)
+        _run(work, first, steps, step, pace)
 
 
 def named(name: str) -> Engine:
@@ -164,7 +173,7 @@ def native() -> Any:
         raise ExoError("engine native is not installed: `cargo xtask native` builds and installs it") from None
 
 
-def _run(all_work: list[_Work], first: int, steps: int, step: float) -> None:
+def _run(all_work: list[_Work], first: int, steps: int, step: float, pace: Pace | None) -> None:
     """The loop by ctypes.
 
     The C functions have no argument types here: a call with finished ctypes objects takes a third of the time of one
@@ -172,8 +181,11 @@ def _run(all_work: list[_Work], first: int, steps: int, step: float) -> None:
     """
     t, size_of_step, no_rollback = c_double(0.0), c_double(step), c_int(1)
     prepared = [_for_ctypes(work) for work in all_work]
+    origin = perf_counter() - first * step
     for k in range(first, steps):
         t.value = k * step
+        if pace is not None:
+            pace.wait(k, origin + k * step)
         for part, component, copies, writes, do_step, reads in prepared:
             for target, at, width, source, output, stride in copies:
                 target[k * width + at] = source[k * stride + output]
@@ -187,11 +199,15 @@ def _run(all_work: list[_Work], first: int, steps: int, step: float) -> None:
                 address.value = base + k * size
                 if status := call(component, references, count, address):
                     raise _located(part.instance.fail(name, status), t.value)
+        if pace is not None:
+            pace.ends(k)
 
 
-def _run_native(all_work: list[_Work], first: int, steps: int, step: float) -> None:
+def _run_native(all_work: list[_Work], first: int, steps: int, step: float, pace: Pace | None) -> None:
     """The loop in machine code: addresses go there, a failed call comes back."""
-    failed = native().run([_addresses(work) for work in all_work], first=first, steps=steps, step=step)
+    failed = native().run(
+        [_addresses(work) for work in all_work], first=first, steps=steps, step=step, pace=pace and pace.addresses
+    )
     if failed is None:
         return
     component, what, number, status, k = failed

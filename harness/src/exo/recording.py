@@ -12,6 +12,7 @@ import pyarrow.parquet
 from numpy.typing import NDArray
 
 from exo.errors import ExoError, close_matches
+from exo.pace import Deadlines
 from exo.scenario import Segment
 
 TIME = "time"
@@ -35,6 +36,8 @@ class Recording:
     wall_time: float
     #: Processor time of it (s): less, when the machine does something else meanwhile.
     cpu_time: float
+    #: Of a run by the clock.
+    deadlines: Deadlines | None = None
 
     def __getitem__(self, name: str) -> NDArray[Any]:
         try:

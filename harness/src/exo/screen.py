@@ -118,6 +118,9 @@ def print_run(
         f"[{COLORS[verdict]}]{verdict}[/] {done.scenario.id}: {counts['pass']} pass, {counts['fail']} fail, "
         f"{counts['info']} info; {simulated:.0f} s simulated in {computing:.2f} s"
     )
+    for case, run in done.recordings.items():
+        if run.deadlines is not None:
+            console.print(f"  {case}: {run.deadlines.sentence()}", markup=False)
     results = sorted((r for r in done.results if r.verdict in shown), key=lambda result: ORDER.index(result.verdict))
     if results:
         rows = table("", "metric", "value", "unit", "expected", "margin")

@@ -1,20 +1,26 @@
 """One case from plan to recording. What is wired and initialized: `exo.coupled`; what makes the steps: `exo.loop`."""
 
 from collections.abc import Mapping
+from dataclasses import replace
 
 from exo.coupled import TRUE_FROM, Coupled
 from exo.fmu import Archive
 from exo.loop import Engine
+from exo.pace import Pace
 from exo.plan import Plan, plan
 from exo.recording import Recording
 
 __all__ = ["TRUE_FROM", "Plan", "plan", "simulate"]
 
 
-def simulate(*, plan: Plan, archives: Mapping[str, Archive], engine: Engine = "fmpy") -> Recording:
-    """Runs one case. `archives` are the opened FMUs by archive name; `engine` makes the steps."""
+def simulate(
+    *, plan: Plan, archives: Mapping[str, Archive], engine: Engine = "fmpy", real_time: bool = False
+) -> Recording:
+    """Runs one case. `archives` are the opened FMUs by archive name; `engine` makes the steps, `real_time` by the clock."""
     with Coupled(plan, archives) as coupled:
         coupled.start(plan)
-        coupled.advance(engine=engine)
+        pace = Pace(steps=plan.steps, step=plan.step) if real_time else None
+        coupled.advance(engine=engine, pace=pace)
         coupled.terminate()
-        return coupled.recording()
+        recording = coupled.recording()
+        return recording if pace is None else replace(recording, deadlines=pace.deadlines())
