@@ -16,7 +16,8 @@ __all__ = ["TRUE_FROM", "Plan", "plan", "simulate"]
 def simulate(
     *, plan: Plan, archives: Mapping[str, Archive], engine: Engine = "fmpy", real_time: bool = False
 ) -> Recording:
-    """Runs one case. `archives` are the opened FMUs by archive name; `engine` makes the steps, `real_time` by the clock."""
+    """Runs one case, with `real_time` by the clock. `archives` are the opened FMUs by archive name; `engine` makes the
+    steps."""
     with Coupled(plan, archives) as coupled:
         coupled.start(plan)
         pace = Pace(steps=plan.steps, step=plan.step) if real_time else None
