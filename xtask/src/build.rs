@@ -30,7 +30,7 @@ pub fn libraries() -> Outcome<BTreeMap<&'static str, PathBuf>> {
     }
     // The encoded form takes precedence over RUSTFLAGS and over cargo's configuration, and takes spaces in paths.
     run(build
-        .env("EXO_GIT_HASH", git_hash())
+        .env("FMU_GIT_HASH", git_hash())
         .env("CARGO_ENCODED_RUSTFLAGS", remapping(&[])?))?;
     let mut libraries = BTreeMap::new();
     for name in names {
@@ -66,9 +66,9 @@ pub fn forbid_private_paths(file: &str, bytes: &[u8]) -> Outcome {
 }
 
 /// The commit that is built: its hash, with `-dirty` when files that git knows differ from it; `unknown` outside of git.
-/// A source without its history can be told by `EXO_GIT_HASH` in the environment.
+/// A source without its history can be told by `FMU_GIT_HASH` in the environment.
 pub fn git_hash() -> String {
-    if let Ok(told) = std::env::var("EXO_GIT_HASH") {
+    if let Ok(told) = std::env::var("FMU_GIT_HASH") {
         return told;
     }
     let hash = answer(&mut program("git", ["rev-parse", "HEAD"]));

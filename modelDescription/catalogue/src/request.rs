@@ -1,6 +1,6 @@
 //! Archives from libraries, as `cargo xtask` asks for them in a file of JSON.
 
-use crate::{Fmu, wiring};
+use crate::{Fmu, PACKAGE, wiring};
 use fmu_archive::archive::{self, Binary, Contents};
 use fmu_archive::{Component, Guide, Product, licences, sbom};
 use serde::Deserialize;
@@ -56,6 +56,7 @@ impl Request {
             .collect();
         let contents = Contents {
             interface: &interface,
+            package: PACKAGE,
             binaries: &binaries,
             linked: &self.linked,
             guide: Guide {
@@ -105,6 +106,7 @@ impl LawDocuments {
             name: "exo-law",
             about: "The admittance laws as a C library",
             guid: None,
+            package: PACKAGE,
         };
         let licences = licences::files(&product, &self.linked);
         let bill = sbom(&product, &self.linked).into_bytes();

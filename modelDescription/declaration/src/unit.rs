@@ -2,6 +2,7 @@
 
 /// Exponents of the SI base units.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Base {
     /// kilogram
     pub kg: i8,
@@ -15,6 +16,7 @@ pub struct Base {
 
 /// A unit in which a variable may be displayed: `display = factor · value`.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Display {
     /// Name, for instance `deg`.
     pub name: &'static str,
@@ -24,6 +26,7 @@ pub struct Display {
 
 /// A unit: its name and its SI base exponents; values are SI, so factor 1 and offset 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Unit {
     /// Name as in the XML, for instance `N.s/m`.
     pub name: &'static str,

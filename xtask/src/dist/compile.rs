@@ -91,7 +91,7 @@ impl Plan {
         }
         let compilers = self.rust.as_deref().map(renamed).unwrap_or_default();
         command
-            .env("EXO_GIT_HASH", git_hash())
+            .env("FMU_GIT_HASH", git_hash())
             .env("CARGO_ENCODED_RUSTFLAGS", self.flags(platform, &compilers)?);
         run(&mut command)?;
         let folder = target.join(platform.target).join("release/examples");
