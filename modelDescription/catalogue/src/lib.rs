@@ -15,7 +15,6 @@
 //! | [`fmu`] | the list with types, and the committed descriptions |
 //! | [`wiring`] | which output belongs to which input |
 //! | [`table`] | what the C host must know of an FMU |
-//! | [`functions`] | the names that a library exports |
 //! | [`header`] | the C header of the law's library |
 //! | [`laws`] | the README's table of the laws |
 //! | [`package`] | whose they are: version, copyright, licence |
@@ -24,7 +23,6 @@
 //! The program `catalogue` answers `cargo xtask`, which so compiles without any model.
 
 pub mod fmu;
-pub mod functions;
 pub mod header;
 pub mod laws;
 pub mod package;

@@ -1,6 +1,6 @@
 //! What a library offers and what it needs: read from the file, whatever its format.
 
-use super::platform::{GLIBC, Platform};
+use crate::platform::{GLIBC, Platform};
 use object::read::elf::{Dyn as _, FileHeader as _, SectionTable};
 use object::{Endianness, Object as _, elf};
 use std::collections::BTreeSet;
@@ -242,7 +242,7 @@ mod tests {
 
     #[test]
     fn a_file_of_no_known_format_is_refused() {
-        let platform = &super::super::platform::PLATFORMS[0];
+        let platform = &crate::platform::PLATFORMS[0];
         assert!(inspect(b"no library", platform, &BTreeSet::new(), true).is_err());
     }
 }

@@ -1,0 +1,3 @@
+//! `cargo fmu`.
+
+fn main() {}
