@@ -34,6 +34,8 @@ pub struct Contents<'a> {
     pub guide: Guide<'a>,
     /// `model.png`, which importers show on the block.
     pub icon: &'a [u8],
+    /// Other files, by their path in the archive.
+    pub extra: &'a [(String, Vec<u8>)],
 }
 
 impl<'a> Contents<'a> {
@@ -46,6 +48,7 @@ impl<'a> Contents<'a> {
             linked: &[],
             guide: Guide::default(),
             icon: PICTURE,
+            extra: &[],
         }
     }
 }
@@ -81,6 +84,7 @@ pub fn files(contents: &Contents<'_>) -> Vec<(String, Vec<u8>)> {
         linked,
         guide,
         icon,
+        extra,
     } = *contents;
     let name = interface.name;
     let product = Product::of(interface, package);
@@ -122,6 +126,7 @@ pub fn files(contents: &Contents<'_>) -> Vec<(String, Vec<u8>)> {
             bytes.to_vec(),
         ));
     }
+    files.extend_from_slice(extra);
     files.sort();
     files
 }

@@ -2,6 +2,8 @@
 
 use crate::Workspace;
 use crate::cdylib::Cdylib;
+use crate::functions;
+use crate::inspect::inspect;
 use crate::platform::{Linker, Platform, Standard};
 use crate::process::{Failure, Outcome, answer, at, ended, program, rustc, start};
 use crate::runtime;
@@ -9,7 +11,7 @@ use crate::toolchain::{Toolchains, path_with, with_libraries};
 use crate::trace::{forbid_private_paths, git_hash, remapping};
 use cargo_metadata::Message;
 use fmu_archive::Component;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::io::BufReader;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
@@ -37,22 +39,51 @@ pub fn here(
     target: &Path,
     profile: &str,
 ) -> Outcome<BTreeMap<String, PathBuf>> {
+    let libraries = with(workspace, cdylibs, target, profile, &[])?;
+    for path in libraries.values() {
+        let bytes = std::fs::read(path).map_err(at(path))?;
+        forbid_private_paths(workspace, &path.to_string_lossy(), &bytes)?;
+    }
+    Ok(libraries)
+}
+
+/// Builds libraries for this machine, with further options of cargo.
+///
+/// # Errors
+/// When cargo fails.
+pub(crate) fn with(
+    workspace: &Workspace,
+    cdylibs: &[Cdylib],
+    target: &Path,
+    profile: &str,
+    options: &[&str],
+) -> Outcome<BTreeMap<String, PathBuf>> {
     let mut build = workspace.cargo("build");
     // Said, because the configuration of somebody's cargo may say another one.
     build.args(["--target", &host()?]);
     build
         .args(["--profile", profile, "--target-dir"])
         .arg(target);
+    build.args(options);
     // The encoded form takes precedence over RUSTFLAGS and over cargo's configuration, and takes spaces in paths.
     build
         .env("FMU_GIT_HASH", git_hash(workspace))
-        .env("CARGO_ENCODED_RUSTFLAGS", remapping(workspace, &[])?);
-    let libraries = built(&mut build, cdylibs, std::env::consts::DLL_SUFFIX)?;
-    for path in libraries.values() {
-        let bytes = std::fs::read(path).map_err(at(path))?;
-        forbid_private_paths(workspace, &path.to_string_lossy(), &bytes)?;
-    }
-    Ok(libraries)
+        .env("CARGO_ENCODED_RUSTFLAGS", remapping(workspace, &[])?)
+        .envs(as_exported(profile));
+    built(&mut build, cdylibs, std::env::consts::DLL_SUFFIX)
+}
+
+/// What a library of an archive needs, whatever its workspace says of the profile: panics that can be caught, no function
+/// besides those of the standard, no symbols.
+fn as_exported(profile: &str) -> [(String, &'static str); 4] {
+    let name = profile.to_uppercase().replace('-', "_");
+    let set = |key: &str, value| (format!("CARGO_PROFILE_{name}_{key}"), value);
+    [
+        set("PANIC", "unwind"),
+        set("LTO", "fat"),
+        set("CODEGEN_UNITS", "1"),
+        set("STRIP", "symbols"),
+    ]
 }
 
 /// Runs a build of some libraries; returns where they lie, by name. Errors of the compiler are shown.
@@ -108,6 +139,37 @@ pub struct Built {
     pub strict: bool,
     /// What the tools have linked in besides cargo's packages.
     pub runtimes: Vec<Component>,
+}
+
+impl Built {
+    /// Inspects every library; says what they need.
+    ///
+    /// # Errors
+    /// Names the library and the first rule that it breaks.
+    pub fn inspected(&self, workspace: &Workspace, platform: &Platform) -> Outcome<String> {
+        let mut needs = BTreeSet::new();
+        let functions = functions::exported();
+        let (mut glibc, mut size) = (None, 0);
+        for (name, library) in &self.libraries {
+            let report =
+                inspect(&library.bytes, platform, &functions, self.strict).map_err(|what| {
+                    Failure::Found(format!("{name} for {}: {what}", platform.folder))
+                })?;
+            forbid_private_paths(workspace, &library.path.to_string_lossy(), &library.bytes)?;
+            needs.extend(report.needs);
+            glibc = glibc.max(report.glibc);
+            size = size.max(library.bytes.len());
+        }
+        let needs = needs.into_iter().collect::<Vec<_>>().join(", ");
+        let floor = match glibc {
+            Some((major, minor)) if self.strict => format!("glibc {major}.{minor}; "),
+            Some((major, minor)) => {
+                format!("glibc {major}.{minor}, this machine's, for want of zig's linker; ")
+            }
+            None => String::new(),
+        };
+        Ok(format!("{floor}needs {needs}; at most {} kB", size / 1000))
+    }
 }
 
 /// A library as a file.
@@ -176,10 +238,18 @@ impl<'t> Plan<'t> {
         let mut command = self.cargo(workspace, platform);
         command.args(["--release", "--target-dir"]).arg(target);
         let compilers = self.rust.as_deref().map(renamed).unwrap_or_default();
-        command.env("FMU_GIT_HASH", git_hash(workspace)).env(
-            "CARGO_ENCODED_RUSTFLAGS",
-            self.flags(workspace, platform, &compilers)?,
-        );
+        let mut profile = as_exported("release").to_vec();
+        if self.lld.is_some() {
+            // The linker strips: Debian's compiler comes without the program that would.
+            profile.retain(|(key, _)| !key.ends_with("STRIP"));
+        }
+        command
+            .envs(profile)
+            .env("FMU_GIT_HASH", git_hash(workspace))
+            .env(
+                "CARGO_ENCODED_RUSTFLAGS",
+                self.flags(workspace, platform, &compilers)?,
+            );
         let mut libraries = BTreeMap::new();
         for (name, path) in built(&mut command, cdylibs, platform.suffix)? {
             let bytes = std::fs::read(&path).map_err(at(&path))?;
@@ -241,7 +311,6 @@ impl<'t> Plan<'t> {
             command
                 .env(format!("CARGO_TARGET_{variable}_LINKER"), lld)
                 .env("SDKROOT", apple)
-                // The linker strips: Debian's compiler comes without the program that would.
                 .env("CARGO_PROFILE_RELEASE_STRIP", "none");
         }
         command

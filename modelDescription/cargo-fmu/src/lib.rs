@@ -2,6 +2,13 @@
 //!
 //! | module | what |
 //! |---|---|
+//! | [`mod@new`] | a package with a model, to begin with |
+//! | [`subject`] | which models are meant |
+//! | [`facts`] | what their package says of them |
+//! | [`mod@interface`] | a model's interface, from its library |
+//! | [`mod@archive`] | a stranger's archives |
+//! | [`describe`] | an archive's variables as a table |
+//! | [`check`] | the validator |
 //! | [`workspace`] | the cargo workspace whose models are built |
 //! | [`mod@cdylib`] | a target of cargo that becomes a shared library with one model |
 //! | [`compile`] | libraries, for this machine or for one platform with its tools |
@@ -14,16 +21,23 @@
 //! | [`pack`] | archives from libraries |
 //! | [`process`] | other programs, and what went wrong with them |
 
+pub mod archive;
 pub mod cdylib;
+pub mod check;
 pub mod compile;
 pub mod debian;
+pub mod describe;
+pub mod facts;
 pub mod functions;
 pub mod inspect;
+pub mod interface;
 pub mod linked;
+pub mod new;
 pub mod pack;
 pub mod platform;
 pub mod process;
 pub mod runtime;
+pub mod subject;
 pub mod toolchain;
 pub mod trace;
 pub mod workspace;

@@ -120,6 +120,21 @@ pub fn here() -> Outcome<&'static Platform> {
 }
 
 impl Platform {
+    /// One by its folder in an archive.
+    ///
+    /// # Errors
+    /// Names those that are known.
+    pub fn named(folder: &str) -> Outcome<&'static Self> {
+        let known = PLATFORMS.iter().find(|platform| platform.folder == folder);
+        known.ok_or_else(|| {
+            let names = PLATFORMS
+                .each_ref()
+                .map(|platform| platform.folder)
+                .join(", ");
+            Failure::Found(format!("platform {folder}: expected one of {names}"))
+        })
+    }
+
     /// What cargo-zigbuild is told: the target, with the oldest C library to support.
     pub fn zig_target(&self) -> String {
         format!("{}.{}.{}", self.target, GLIBC.0, GLIBC.1)

@@ -17,7 +17,6 @@ mod processor;
 mod stack;
 
 use crate::build;
-use crate::build::forbid_private_paths;
 use crate::catalogue::{Request, pack};
 use crate::linked;
 use crate::process::{Failure, Outcome, at, root, run, workspace};
@@ -25,8 +24,6 @@ use crate::schedule;
 use crate::venv::{Packages, Venv};
 use cargo_fmu::cdylib::Cdylib;
 use cargo_fmu::compile::{Built, Plan};
-use cargo_fmu::functions;
-use cargo_fmu::inspect::inspect;
 use cargo_fmu::platform::{GLIBC, PLATFORMS, Platform, Runner};
 use cargo_fmu::toolchain::Toolchains;
 pub use cargo_fmu::toolchain::with_libraries;
@@ -102,7 +99,7 @@ fn row(platform: &'static Platform, tools: &Toolchains) -> Outcome<Row> {
     let (built, needs) = match Plan::of(platform, tools) {
         Ok(plan) => {
             let built = plan.build(&workspace(), platform, &folder(), &libraries())?;
-            let needs = inspected(platform, &built)?;
+            let needs = built.inspected(&workspace(), platform)?;
             (Some(built), needs)
         }
         Err(reason) => (None, format!("not built: {reason}")),
@@ -145,30 +142,6 @@ pub fn dist(check: bool) -> Outcome {
         validated(&rows)?;
     }
     summary(&rows, &firmware)
-}
-
-/// Inspects every library of a platform; says what they need.
-fn inspected(platform: &Platform, built: &Built) -> Outcome<String> {
-    let mut needs = std::collections::BTreeSet::new();
-    let functions = functions::exported();
-    let (mut glibc, mut size) = (None, 0);
-    for (name, library) in &built.libraries {
-        let report = inspect(&library.bytes, platform, &functions, built.strict)
-            .map_err(|what| Failure::Found(format!("{name} for {}: {what}", platform.folder)))?;
-        forbid_private_paths(&library.path.to_string_lossy(), &library.bytes)?;
-        needs.extend(report.needs);
-        glibc = glibc.max(report.glibc);
-        size = size.max(library.bytes.len());
-    }
-    let needs = needs.into_iter().collect::<Vec<_>>().join(", ");
-    let floor = match glibc {
-        Some((major, minor)) if built.strict => format!("glibc {major}.{minor}; "),
-        Some((major, minor)) => {
-            format!("glibc {major}.{minor}, this machine's, for want of zig's linker; ")
-        }
-        None => String::new(),
-    };
-    Ok(format!("{floor}needs {needs}; at most {} kB", size / 1000))
 }
 
 /// Writes the archives.
