@@ -1,6 +1,6 @@
 //! A stranger's archives: for this machine, or for many platforms.
 
-use crate::compile::Plan;
+use crate::compile::{Inspected, Plan};
 use crate::facts::Facts;
 use crate::functions;
 use crate::inspect::inspect;
@@ -12,7 +12,7 @@ use crate::toolchain::Toolchains;
 use crate::{compile, interface, linked, platform, trace};
 use fmu_archive::archive::Contents;
 use fmu_archive::{Component, Guide, Interface, Package};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// The contents of an archive of the subject's package, and where it goes.
 pub(crate) fn pack(
@@ -61,13 +61,15 @@ pub(crate) fn pack(
     Ok(parts.archive)
 }
 
-/// Builds the archives of all models of the subject for this machine, into `fmu` in cargo's target folder.
+/// Builds the archives of all models of the subject for this machine, into the folder `out`; without it into `fmu` in cargo's
+/// target folder.
 ///
 /// # Errors
 /// When something does not compile, a declaration breaks a rule, or a file tells of this machine.
-pub fn build(subject: &Subject, profile: &str) -> Outcome<Vec<PathBuf>> {
+pub fn build(subject: &Subject, profile: &str, out: Option<&Path>) -> Outcome<Vec<PathBuf>> {
     let facts = Facts::of(&subject.package, &subject.workspace.root)?;
     let here = platform::here()?;
+    let out = out.map_or_else(|| subject.workspace.target.join("fmu"), Path::to_owned);
     let target = subject.workspace.target.join("fmu-build");
     let linked = linked::components(&subject.workspace, &subject.package.name)?;
     let mut archives = Vec::new();
@@ -83,7 +85,7 @@ pub fn build(subject: &Subject, profile: &str) -> Outcome<Vec<PathBuf>> {
             extension: here.suffix.to_owned(),
             path,
         };
-        let archive = folder(subject).join(interface.name).with_extension("fmu");
+        let archive = out.join(interface.name).with_extension("fmu");
         archives.push(pack(
             subject,
             &facts,
@@ -96,18 +98,23 @@ pub fn build(subject: &Subject, profile: &str) -> Outcome<Vec<PathBuf>> {
     Ok(archives)
 }
 
-/// Where archives for this machine lie.
-fn folder(subject: &Subject) -> PathBuf {
-    subject.workspace.target.join("fmu")
+/// Whether it offers the standard's functions and no others. Says what it calls that rounds differently elsewhere.
+fn inspected(platform: &Platform, library: &Path) -> Outcome {
+    let bytes = std::fs::read(library).map_err(at(library))?;
+    let name = library.file_name().unwrap_or_default().to_string_lossy();
+    let report = inspect(&bytes, platform, &functions::exported(), false)
+        .map_err(|what| Failure::Found(format!("{name}: {what}")))?;
+    for function in &report.rounded {
+        note_rounded(&name, function);
+    }
+    Ok(())
 }
 
-/// Whether it offers the standard's functions and no others, and calls nothing that rounds differently elsewhere.
-fn inspected(platform: &Platform, library: &std::path::Path) -> Outcome {
-    let bytes = std::fs::read(library).map_err(at(library))?;
-    match inspect(&bytes, platform, &functions::exported(), false) {
-        Ok(_) => Ok(()),
-        Err(what) => Err(Failure::Found(format!("{}: {what}", library.display()))),
-    }
+fn note_rounded(library: &str, function: &str) {
+    println!(
+        "note: {library} calls {function} of the C library, which each platform rounds in its own way: the libm crate gives the \
+         same bits everywhere"
+    );
 }
 
 /// One platform of [`dist`]: what its libraries need, or why there are none.
@@ -120,8 +127,8 @@ pub struct Row {
     pub said: String,
 }
 
-/// Builds the archives of all models of the subject for many platforms, into `dist` in cargo's target folder. A platform whose
-/// tools cannot be had is left out.
+/// Builds the archives of all models of the subject for many platforms, into the folder `out`; without it into `dist` in cargo's
+/// target folder. A platform whose tools cannot be had is left out.
 ///
 /// # Errors
 /// When what has its tools here does not compile, or something is wrong with it; when no platform has its tools.
@@ -129,6 +136,7 @@ pub fn dist(
     subject: &Subject,
     platforms: &[&'static Platform],
     tools: &Toolchains,
+    out: Option<&Path>,
 ) -> Outcome<(Vec<PathBuf>, Vec<Row>)> {
     let facts = Facts::of(&subject.package, &subject.workspace.root)?;
     let workspace = &subject.workspace;
@@ -161,7 +169,10 @@ pub fn dist(
                 path: built.libraries[&cdylib.name].path.clone(),
             });
         }
-        let said = built.inspected(workspace, platform)?;
+        let Inspected { said, rounded } = built.inspected(workspace, platform)?;
+        for (library, function) in rounded {
+            note_rounded(&library, &function);
+        }
         linked.extend(built.runtimes);
         rows.push(Row {
             platform,
@@ -182,7 +193,7 @@ pub fn dist(
             reasons.concat()
         )));
     }
-    let folder = workspace.target.join("dist");
+    let folder = out.map_or_else(|| workspace.target.join("dist"), Path::to_owned);
     let archive = |(interface, binaries): (&Interface, Vec<Library>)| {
         let archive = folder.join(interface.name).with_extension("fmu");
         pack(

@@ -141,13 +141,21 @@ pub struct Built {
     pub runtimes: Vec<Component>,
 }
 
+/// What was seen in libraries.
+pub struct Inspected {
+    /// What they need, in words.
+    pub said: String,
+    /// Libraries, and functions of C's mathematics that they call: each platform rounds them in its own way.
+    pub rounded: BTreeSet<(String, String)>,
+}
+
 impl Built {
     /// Inspects every library; says what they need.
     ///
     /// # Errors
     /// Names the library and the first rule that it breaks.
-    pub fn inspected(&self, workspace: &Workspace, platform: &Platform) -> Outcome<String> {
-        let mut needs = BTreeSet::new();
+    pub fn inspected(&self, workspace: &Workspace, platform: &Platform) -> Outcome<Inspected> {
+        let (mut needs, mut rounded) = (BTreeSet::new(), BTreeSet::new());
         let functions = functions::exported();
         let (mut glibc, mut size) = (None, 0);
         for (name, library) in &self.libraries {
@@ -157,6 +165,8 @@ impl Built {
                 })?;
             forbid_private_paths(workspace, &library.path.to_string_lossy(), &library.bytes)?;
             needs.extend(report.needs);
+            let called = report.rounded.into_iter();
+            rounded.extend(called.map(|function| (name.clone(), function)));
             glibc = glibc.max(report.glibc);
             size = size.max(library.bytes.len());
         }
@@ -168,7 +178,10 @@ impl Built {
             }
             None => String::new(),
         };
-        Ok(format!("{floor}needs {needs}; at most {} kB", size / 1000))
+        Ok(Inspected {
+            said: format!("{floor}needs {needs}; at most {} kB", size / 1000),
+            rounded,
+        })
     }
 }
 

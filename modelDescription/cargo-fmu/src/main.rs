@@ -7,7 +7,7 @@ use cargo_fmu::subject::Choice;
 use cargo_fmu::toolchain::Toolchains;
 use cargo_fmu::{archive, check, describe, interface, new};
 use clap::{Parser, Subcommand};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 #[derive(Parser)]
@@ -39,6 +39,9 @@ enum Command {
         /// The profile release, which is taken anyhow
         #[arg(long, short, conflicts_with = "profile")]
         release: bool,
+        /// Where the archives go; without it fmu in cargo's target folder
+        #[arg(long, value_name = "DIR")]
+        out: Option<PathBuf>,
     },
     /// Build the FMUs of a package for every platform that this machine has tools for, into target/dist
     #[command(after_long_help = FACTS)]
@@ -51,6 +54,9 @@ enum Command {
         /// Where tools are kept, once fetched; without it toolchains in cargo's target folder
         #[arg(long, value_name = "DIR")]
         toolchains: Option<PathBuf>,
+        /// Where the archives go; without it dist in cargo's target folder
+        #[arg(long, value_name = "DIR")]
+        out: Option<PathBuf>,
     },
     /// Judge FMUs with `exo validate`: those given, or those of a package, which are built first
     Check {
@@ -131,8 +137,9 @@ fn run(command: Command) -> Outcome {
             choice,
             profile,
             release: _,
+            out,
         } => {
-            for archive in archive::build(&choice.subject()?, &profile)? {
+            for archive in archive::build(&choice.subject()?, &profile, out.as_deref())? {
                 println!("{}", archive.display());
             }
             Ok(())
@@ -141,7 +148,8 @@ fn run(command: Command) -> Outcome {
             choice,
             platform,
             toolchains,
-        } => dist(&choice, &platform, toolchains),
+            out,
+        } => dist(&choice, &platform, toolchains, out.as_deref()),
         Command::Check {
             choice,
             fmu,
@@ -150,7 +158,7 @@ fn run(command: Command) -> Outcome {
             if fmu.is_empty() {
                 let subject = choice.subject()?;
                 let validator = check::validator(validator.as_deref(), Some(&subject))?;
-                check::archives(&archive::build(&subject, "release")?, &validator)
+                check::archives(&archive::build(&subject, "release", None)?, &validator)
             } else {
                 // The SDK's validator serves archives of others, too.
                 let subject = choice.subject().ok();
@@ -160,7 +168,7 @@ fn run(command: Command) -> Outcome {
         }
         Command::Describe { choice, fmu } => {
             let fmu = if fmu.is_empty() {
-                archive::build(&choice.subject()?, "release")?
+                archive::build(&choice.subject()?, "release", None)?
             } else {
                 fmu
             };
@@ -172,7 +180,12 @@ fn run(command: Command) -> Outcome {
     }
 }
 
-fn dist(choice: &Choice, wanted: &[String], toolchains: Option<PathBuf>) -> Outcome {
+fn dist(
+    choice: &Choice,
+    wanted: &[String],
+    toolchains: Option<PathBuf>,
+    out: Option<&Path>,
+) -> Outcome {
     let platforms: Vec<&'static Platform> = if wanted.is_empty() {
         PLATFORMS.iter().collect()
     } else {
@@ -183,7 +196,7 @@ fn dist(choice: &Choice, wanted: &[String], toolchains: Option<PathBuf>) -> Outc
     };
     let subject = choice.subject()?;
     let folder = toolchains.unwrap_or_else(|| subject.workspace.target.join("toolchains"));
-    let (archives, rows) = archive::dist(&subject, &platforms, &Toolchains::at(folder))?;
+    let (archives, rows) = archive::dist(&subject, &platforms, &Toolchains::at(folder), out)?;
     for row in &rows {
         let state = if row.built { "built   " } else { "LEFT OUT" };
         println!("{state} {:<15} {}", row.platform.folder, row.said);

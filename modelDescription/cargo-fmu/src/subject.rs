@@ -56,10 +56,11 @@ impl Choice {
         let package = self.package(&metadata)?.clone();
         // Once more, because the configuration in the package's own folder is what applies.
         let (workspace, _) = Workspace::open(package.manifest_path.as_std_path(), &self.flags())?;
+        let feature = feature(&package)?;
         Ok(Subject {
             workspace,
             cdylibs: self.cdylibs(&package)?,
-            feature: feature(&package)?,
+            feature,
             package,
         })
     }

@@ -23,7 +23,7 @@ use crate::process::{Failure, Outcome, at, root, run, workspace};
 use crate::schedule;
 use crate::venv::{Packages, Venv};
 use cargo_fmu::cdylib::Cdylib;
-use cargo_fmu::compile::{Built, Plan};
+use cargo_fmu::compile::{Built, Inspected, Plan};
 use cargo_fmu::platform::{GLIBC, PLATFORMS, Platform, Runner};
 use cargo_fmu::toolchain::Toolchains;
 pub use cargo_fmu::toolchain::with_libraries;
@@ -99,8 +99,9 @@ fn row(platform: &'static Platform, tools: &Toolchains) -> Outcome<Row> {
     let (built, needs) = match Plan::of(platform, tools) {
         Ok(plan) => {
             let built = plan.build(&workspace(), platform, &folder(), &libraries())?;
-            let needs = built.inspected(&workspace(), platform)?;
-            (Some(built), needs)
+            let seen = built.inspected(&workspace(), platform)?;
+            no_mathematics(platform, &seen)?;
+            (Some(built), seen.said)
         }
         Err(reason) => (None, format!("not built: {reason}")),
     };
@@ -110,6 +111,18 @@ fn row(platform: &'static Platform, tools: &Toolchains) -> Outcome<Row> {
         needs,
         ran: String::new(),
     })
+}
+
+/// The same inputs give the same bits everywhere: nothing may be called that a platform rounds in its own way.
+fn no_mathematics(platform: &Platform, seen: &Inspected) -> Outcome {
+    match seen.rounded.first() {
+        None => Ok(()),
+        Some((library, function)) => Err(Failure::Found(format!(
+            "{library} for {} calls {function} of the platform's C library, which each rounds in its own way: expected the libm \
+             crate",
+            platform.folder
+        ))),
+    }
 }
 
 /// Builds `target/dist/*.fmu`; with `check` also runs and compares what can be run here, and builds one library twice.
