@@ -1,6 +1,6 @@
 //! The `.fmu` archive: the same bytes for the same contents, on any machine and day.
 
-use crate::{Component, Guide, Interface, document, header, licences, sbom, xml};
+use crate::{Component, Guide, Interface, Package, Product, document, header, licences, sbom, xml};
 use std::io::{Cursor, Write as _};
 use zip::result::ZipResult;
 use zip::write::{SimpleFileOptions, ZipWriter};
@@ -24,6 +24,8 @@ pub struct Binary<'a> {
 pub struct Contents<'a> {
     /// The interface.
     pub interface: &'a Interface,
+    /// Whose model it is.
+    pub package: Package<'a>,
     /// Its libraries.
     pub binaries: &'a [Binary<'a>],
     /// What is linked into them.
@@ -32,17 +34,21 @@ pub struct Contents<'a> {
     pub guide: Guide<'a>,
     /// `model.png`, which importers show on the block.
     pub icon: &'a [u8],
+    /// Other files, by their path in the archive.
+    pub extra: &'a [(String, Vec<u8>)],
 }
 
 impl<'a> Contents<'a> {
-    /// What follows from the interface alone: no library, nothing linked in, the icon of a control loop.
+    /// What follows from the interface alone: of no package, no library, nothing linked in, the icon of a control loop.
     pub fn of(interface: &'a Interface) -> Self {
         Self {
             interface,
+            package: Package::default(),
             binaries: &[],
             linked: &[],
             guide: Guide::default(),
             icon: PICTURE,
+            extra: &[],
         }
     }
 }
@@ -73,21 +79,24 @@ pub fn write(contents: &Contents<'_>) -> ZipResult<Vec<u8>> {
 pub fn files(contents: &Contents<'_>) -> Vec<(String, Vec<u8>)> {
     let Contents {
         interface,
+        package,
         binaries,
         linked,
         guide,
         icon,
+        extra,
     } = *contents;
     let name = interface.name;
+    let product = Product::of(interface, package);
     let mut files = vec![
         (
             "modelDescription.xml".to_owned(),
-            xml(interface).into_bytes(),
+            xml(interface, package).into_bytes(),
         ),
         ("model.png".to_owned(), icon.to_vec()),
         (
             "documentation/index.html".to_owned(),
-            document(interface, guide).into_bytes(),
+            document(interface, package, guide).into_bytes(),
         ),
         (
             format!("documentation/{name}.h"),
@@ -95,12 +104,12 @@ pub fn files(contents: &Contents<'_>) -> Vec<(String, Vec<u8>)> {
         ),
         (
             "documentation/sbom.cdx.json".to_owned(),
-            sbom(&interface.into(), linked).into_bytes(),
+            sbom(&product, linked).into_bytes(),
         ),
         // Importers pass its location to fmi2Instantiate, so it exists, although nothing is in it.
         ("resources/".to_owned(), Vec::new()),
     ];
-    let licences = licences::files(&interface.into(), linked);
+    let licences = licences::files(&product, linked);
     files.extend(
         licences
             .into_iter()
@@ -117,6 +126,7 @@ pub fn files(contents: &Contents<'_>) -> Vec<(String, Vec<u8>)> {
             bytes.to_vec(),
         ));
     }
+    files.extend_from_slice(extra);
     files.sort();
     files
 }

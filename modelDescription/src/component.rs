@@ -16,13 +16,18 @@ pub struct Component {
     pub purl: Option<String>,
     /// SHA-256 of the published archive, in hexadecimal digits.
     pub sha256: Option<String>,
-    /// File names and contents of its licence texts; none for what has the FMU's own licence.
+    /// File names and contents of its licence texts; none for what has the product's own licence.
     pub texts: Vec<(String, Vec<u8>)>,
     /// Names with versions ([`id`](Self::id)) of the components that it uses.
     pub uses: Vec<String>,
 }
 
 impl Component {
+    /// Whether it is somebody else's: published, or with licence texts of its own.
+    pub fn is_foreign(&self) -> bool {
+        self.purl.is_some() || !self.texts.is_empty()
+    }
+
     /// Name and version, unique among the components of a library and a legal folder name: `libm-0.2.16`.
     pub fn id(&self) -> String {
         format!("{}-{}", self.name, self.version)

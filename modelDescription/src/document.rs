@@ -3,8 +3,8 @@
 use crate::guide::{self, Guide};
 use crate::html::{Section, escape, table};
 use crate::interface::Interface;
-use crate::xml::{self, LOG_CATEGORIES, double};
-use crate::{quick_start, variables};
+use crate::xml::{LOG_CATEGORIES, double};
+use crate::{Package, licences, quick_start, variables};
 use fmu_declaration::Stepping;
 use std::fmt::Write as _;
 
@@ -32,9 +32,9 @@ const STYLE: &str = include_str!("document.css");
 ///
 /// # Panics
 /// Never: text is written to memory.
-pub fn write(interface: &Interface, guide: Guide<'_>) -> String {
+pub fn write(interface: &Interface, package: Package<'_>, guide: Guide<'_>) -> String {
     let name = escape(interface.name);
-    let sections = sections(interface, guide);
+    let sections = sections(interface, package, guide);
     let mut page = format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">\n<title>{name}</title>\n<style>\n{STYLE}</style>\n\
@@ -68,7 +68,7 @@ pub fn write(interface: &Interface, guide: Guide<'_>) -> String {
 }
 
 /// What the document has, in this order.
-fn sections(interface: &Interface, guide: Guide<'_>) -> Vec<Section> {
+fn sections(interface: &Interface, package: Package<'_>, guide: Guide<'_>) -> Vec<Section> {
     let mut sections = Vec::new();
     sections.extend(guide::what(guide));
     sections.extend(guide::picture(guide));
@@ -77,7 +77,7 @@ fn sections(interface: &Interface, guide: Guide<'_>) -> Vec<Section> {
     sections.push(stepping(interface));
     sections.extend(variables::sections(interface));
     sections.extend(enumerations(interface));
-    sections.push(facts(interface));
+    sections.push(facts(interface, package));
     sections.push(log());
     let deviations: String = DEVIATIONS
         .iter()
@@ -88,25 +88,41 @@ fn sections(interface: &Interface, guide: Guide<'_>) -> Vec<Section> {
         "Deviations from FMI 2.0.5",
         format!("<ul>\n{deviations}</ul>\n"),
     ));
-    let licence = format!(
-        "<p>{}. {}, at your option: <a href=\"licenses/LICENSE-MIT.txt\">MIT</a>, \
-         <a href=\"licenses/LICENSE-APACHE.txt\">Apache 2.0</a>. What is linked into the libraries: \
-         <a href=\"licenses/license.txt\">licences</a>, <a href=\"sbom.cdx.json\">bill of materials</a> (CycloneDX 1.5).</p>\n",
-        escape(xml::COPYRIGHT),
-        escape(crate::LICENSE)
-    );
+    let licence = licence(package);
     sections.push(Section::new("licence", "Licence", licence));
     sections
 }
 
-fn facts(interface: &Interface) -> Section {
+fn licence(package: Package<'_>) -> String {
+    let texts = package.texts.iter().map(|(name, _)| {
+        let file = escape(&licences::file_name(name));
+        format!("<a href=\"licenses/{file}\">{file}</a>")
+    });
+    let texts = texts.collect::<Vec<_>>().join(", ");
+    let copyright = match package.copyright {
+        "" => String::new(),
+        holder => format!("{}. ", escape(holder)),
+    };
+    let terms = escape(&licences::terms(package.license));
+    let terms = if texts.is_empty() {
+        format!("{terms}.")
+    } else {
+        format!("{terms}: {texts}.")
+    };
+    format!(
+        "<p>{copyright}{terms} What is linked into the libraries: <a href=\"licenses/license.txt\">licences</a>, \
+         <a href=\"sbom.cdx.json\">bill of materials</a> (CycloneDX 1.5).</p>\n"
+    )
+}
+
+fn facts(interface: &Interface, package: Package<'_>) -> Section {
     let mut page = String::new();
     let experiment = interface.experiment;
     let seconds = |time: f64| format!("{} s", double(time));
     table(&mut page, "facts", &["", ""]);
     for (what, value) in [
         ("Standard", "FMI 2.0, co-simulation".to_owned()),
-        ("Version", crate::VERSION.to_owned()),
+        ("Version", escape(package.version)),
         ("guid", format!("<code>{}</code>", escape(&interface.guid))),
         (
             "Default experiment",

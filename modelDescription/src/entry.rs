@@ -1,9 +1,10 @@
 //! One scalar variable of an interface.
 
 use fmu_declaration::{Causality, Declared, Enumeration, Unit, Variability};
+use serde::{Deserialize, Serialize};
 
 /// One scalar variable.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Entry {
     /// Name, the element's number in it.
     pub name: String,
@@ -24,7 +25,8 @@ pub struct Entry {
 }
 
 /// Type, bounds and start value. Bounds are `None` where there are none.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(bound(deserialize = "'de: 'static"))]
 pub enum Kind {
     /// fmi2Real
     Real {
@@ -59,6 +61,7 @@ pub enum Kind {
     /// fmi2Integer that takes the values of an enumeration's items
     Enumeration {
         /// The type.
+        #[serde(deserialize_with = "fmu_declaration::read_back::enumeration")]
         of: &'static Enumeration,
         /// How the XML declares it.
         declared: Declared,

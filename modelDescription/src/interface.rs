@@ -8,10 +8,11 @@ use fmu_declaration::{
     Access, Causality, Declare, Declared, Description, Enumeration, Experiment, Provenance, Scalar,
     Stepping, Unit, Variability, provenance,
 };
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
 /// A model's interface, checked.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Interface {
     /// Model name and model identifier.
     pub name: &'static str,

@@ -2,7 +2,7 @@
 //!
 //! ```
 //! use fmu_declaration::{Declare, Description, Experiment, Rows, Start, Stepping};
-//! use fmu_archive::{Interface, archive::{self, Contents}};
+//! use fmu_archive::{Interface, Package, archive::{self, Contents}};
 //!
 //! #[derive(Rows, Start)]
 //! struct Lag {
@@ -28,24 +28,28 @@
 //! }
 //!
 //! let interface = Interface::of::<Lag>().unwrap();
-//! let xml = fmu_archive::xml(&interface);
+//! let package = Package { version: "1.0.0", license: "MIT", ..Package::default() };
+//! let xml = fmu_archive::xml(&interface, package);
 //! assert!(xml.contains(r#"<ScalarVariable name="tau" valueReference="512""#));
 //! assert!(xml.contains(r#"<Unknown index="2" dependencies="1" dependenciesKind="dependent"/>"#));
 //!
-//! let fmu: Vec<u8> = archive::write(&Contents::of(&interface)).unwrap();
-//! assert_eq!(fmu, archive::write(&Contents::of(&interface)).unwrap(), "two archives, same bytes");
+//! let contents = Contents { package, ..Contents::of(&interface) };
+//! let fmu: Vec<u8> = archive::write(&contents).unwrap();
+//! assert_eq!(fmu, archive::write(&contents).unwrap(), "two archives, same bytes");
 //! ```
 //!
 //! | module | what | where in the archive | FMI 2.0.5 |
 //! |---|---|---|---|
 //! | [`interface`], [`entry`] | the declaration read once, the model's type gone | | 2.2 |
 //! | [`rules`], [`error`] | every rule that a declaration can break, and what is said of it | | 2.2 |
+//! | [`hand_over`] | the interface as bytes, from a library to who packs it | | |
 //! | [`name`] | names of the structured naming convention | | 2.2.9 |
 //! | [`schema`], [`mod@xml`] | the XML's elements, and their contents | `modelDescription.xml` | 2.2, 4.3.1 |
 //! | [`mod@document`] | the interface document for humans | `documentation/index.html` | 2.3 |
 //! | `html` | its pieces | | |
 //! | [`guide`] | what the rows cannot tell: what it does, picture, wiring | in the document | |
 //! | [`quick_start`] | first steps in a few tools | in the document | |
+//! | [`package`] | whose the model is: version, author, copyright, licence | in all of them | |
 //! | [`product`] | what is delivered, as licences and bill of materials name it | | |
 //! | [`component`], [`mod@sbom`] | what is linked in, and its bill of materials | `documentation/sbom.cdx.json` | |
 //! | [`licences`] | licence texts of all that is linked in | `documentation/licenses/` | 2.3 |
@@ -54,37 +58,57 @@
 //!
 //! No model is known here. The list of this project's FMUs is the package `fmus`.
 
+#[cfg(feature = "write")]
 pub mod archive;
 pub mod component;
+#[cfg(feature = "write")]
 pub mod document;
 pub mod entry;
 pub mod error;
+#[cfg(feature = "write")]
 pub mod guide;
+pub mod hand_over;
+#[cfg(feature = "write")]
 pub mod header;
+#[cfg(feature = "write")]
 mod html;
 pub mod interface;
+#[cfg(feature = "write")]
 pub mod licences;
 pub mod name;
+#[cfg(feature = "write")]
+pub mod package;
+#[cfg(feature = "write")]
 pub mod product;
+#[cfg(feature = "write")]
 pub mod quick_start;
 pub mod rules;
+#[cfg(feature = "write")]
 pub mod sbom;
+#[cfg(feature = "write")]
 pub mod schema;
+#[cfg(feature = "write")]
 mod variables;
+#[cfg(feature = "write")]
 pub mod xml;
 
 pub use component::Component;
+#[cfg(feature = "write")]
 pub use document::write as document;
 pub use error::Error;
+#[cfg(feature = "write")]
 pub use guide::{Connection, Guide, System};
+#[cfg(feature = "write")]
 pub use header::write as header;
 pub use interface::Interface;
+#[cfg(feature = "write")]
+pub use package::Package;
+#[cfg(feature = "write")]
 pub use product::Product;
+#[cfg(feature = "write")]
 pub use sbom::write as sbom;
+#[cfg(feature = "write")]
 pub use xml::write as xml;
 
-/// Version of the FMUs and of this tool: the workspace has one.
+/// Version of this tool.
 pub const VERSION: &str = env!("CARGO_PKG_VERSION");
-
-/// Licence of the FMUs, as an SPDX expression.
-pub const LICENSE: &str = env!("CARGO_PKG_LICENSE");

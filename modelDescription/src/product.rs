@@ -1,6 +1,6 @@
 //! What is delivered: an FMU, or the C library.
 
-use crate::Interface;
+use crate::{Interface, Package};
 
 /// What licences and a bill of materials say of the whole.
 #[derive(Clone, Copy, Debug)]
@@ -11,14 +11,18 @@ pub struct Product<'a> {
     pub about: &'a str,
     /// The guid of an FMU.
     pub guid: Option<&'a str>,
+    /// Whose it is.
+    pub package: Package<'a>,
 }
 
-impl<'a> From<&'a Interface> for Product<'a> {
-    fn from(interface: &'a Interface) -> Self {
+impl<'a> Product<'a> {
+    /// An FMU.
+    pub fn of(interface: &'a Interface, package: Package<'a>) -> Self {
         Self {
             name: interface.name,
             about: interface.about,
             guid: Some(&interface.guid),
+            package,
         }
     }
 }

@@ -31,7 +31,8 @@ struct Part<'a> {
     description: Option<&'a str>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     hashes: Vec<Hash<'a>>,
-    licenses: [Licence<'a>; 1],
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    licenses: Vec<Licence<'a>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     purl: Option<&'a str>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -72,12 +73,10 @@ pub fn write(product: &Product<'_>, linked: &[Component]) -> String {
         kind: "library",
         reference: product.name.to_owned(),
         name: product.name,
-        version: crate::VERSION,
+        version: product.package.version,
         description: Some(product.about),
         hashes: Vec::new(),
-        licenses: [Licence {
-            expression: crate::LICENSE,
-        }],
+        licenses: licence(product.package.license),
         purl: None,
         properties: product
             .guid
@@ -114,6 +113,12 @@ pub fn write(product: &Product<'_>, linked: &[Component]) -> String {
     text
 }
 
+/// None where the package names none.
+fn licence(expression: &str) -> Vec<Licence<'_>> {
+    let named = (!expression.is_empty()).then_some(Licence { expression });
+    named.into_iter().collect()
+}
+
 fn part(component: &Component) -> Part<'_> {
     Part {
         kind: "library",
@@ -129,9 +134,7 @@ fn part(component: &Component) -> Part<'_> {
                 content,
             })
             .collect(),
-        licenses: [Licence {
-            expression: &component.license,
-        }],
+        licenses: licence(&component.license),
         purl: component.purl.as_deref(),
         properties: Vec::new(),
     }

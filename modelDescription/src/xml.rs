@@ -6,6 +6,7 @@
 //! * No output depends on an input at the same communication point: `dependencies=""` (2.2.8).
 //! * There is no independent variable and no generation date: the first upsets importers, the second reproducibility.
 
+use crate::Package;
 use crate::entry::{Entry, Kind};
 use crate::interface::Interface;
 use crate::schema::{
@@ -27,33 +28,31 @@ pub const LOG_CATEGORIES: [(&str, &str); 4] = [
     ("logAll", "all categories"),
 ];
 
-/// Who holds the copyright.
-pub const COPYRIGHT: &str = "Copyright the authors of this project";
-
 /// Writes the description.
 ///
 /// # Panics
 /// When quick-xml cannot write our own elements: a programming error that the first test shows.
-pub fn write(interface: &Interface) -> String {
+pub fn write(interface: &Interface, package: Package<'_>) -> String {
     let mut text = String::from("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
     let mut serializer = quick_xml::se::Serializer::new(&mut text);
     serializer.indent(' ', 2);
-    root(interface)
+    root(interface, package)
         .serialize(serializer)
         .expect("the elements are serializable");
     text.push('\n');
     text
 }
 
-fn root(interface: &Interface) -> Root {
+fn root(interface: &Interface, package: Package<'_>) -> Root {
     Root {
         fmi_version: "2.0".into(),
         model_name: interface.name.into(),
         guid: interface.guid.clone(),
         description: interface.about.into(),
-        version: crate::VERSION.into(),
-        copyright: COPYRIGHT.into(),
-        license: crate::LICENSE.into(),
+        author: told(package.author),
+        version: told(package.version),
+        copyright: told(package.copyright),
+        license: told(package.license),
         generation_tool: format!("fmu-archive {}", crate::VERSION),
         variable_naming_convention: "structured".into(),
         co_simulation: CoSimulation {
@@ -85,6 +84,11 @@ fn root(interface: &Interface) -> Root {
         },
         structure: structure(interface),
     }
+}
+
+/// An attribute that is left out where there is nothing to say.
+fn told(text: &str) -> Option<String> {
+    (!text.is_empty()).then(|| text.to_owned())
 }
 
 fn units(interface: &Interface) -> Option<UnitDefinitions> {

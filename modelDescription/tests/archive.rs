@@ -6,7 +6,7 @@ use fmu_archive::archive::{self, Contents};
 use fmu_archive::{Component, Connection, Guide, Interface, System, document, header};
 use std::collections::{BTreeMap, BTreeSet};
 use std::io::{Cursor, Read as _};
-use subject::Subject;
+use subject::{PACKAGE, Subject};
 
 const LIBRARY: &[u8] = b"\x7fELF, not really";
 
@@ -60,7 +60,7 @@ fn linked() -> Vec<Component> {
 }
 
 fn page() -> String {
-    document(&interface(), GUIDE)
+    document(&interface(), PACKAGE, GUIDE)
 }
 
 fn written() -> Vec<u8> {
@@ -76,6 +76,7 @@ fn written() -> Vec<u8> {
     };
     archive::write(&Contents {
         binaries: &[windows, linux],
+        package: PACKAGE,
         linked: &linked(),
         guide: GUIDE,
         ..Contents::of(&interface())
@@ -123,8 +124,8 @@ fn everything_has_its_place_in_sorted_order() {
             "binaries/win64/Subject.dll",
             "documentation/Subject.h",
             "documentation/index.html",
-            "documentation/licenses/LICENSE-APACHE.txt",
             "documentation/licenses/LICENSE-MIT.txt",
+            "documentation/licenses/ZLIB.md",
             "documentation/licenses/libx-0.2.16/LICENSE.txt",
             "documentation/licenses/license.txt",
             "documentation/sbom.cdx.json",
@@ -140,17 +141,60 @@ fn everything_has_its_place_in_sorted_order() {
     assert_eq!(files["modelDescription.xml"].0, 0o644);
     assert_eq!(
         files["modelDescription.xml"].1,
-        fmu_archive::xml(&interface()).into_bytes()
+        fmu_archive::xml(&interface(), PACKAGE).into_bytes()
     );
     assert!(files["model.png"].1.starts_with(b"\x89PNG\r\n\x1a\n"));
     let text = |path: &str| String::from_utf8(files[path].1.clone()).expect("UTF-8");
-    assert!(
-        text("documentation/licenses/LICENSE-MIT.txt").contains("Permission is hereby granted")
+    assert_eq!(
+        text("documentation/licenses/LICENSE-MIT.txt"),
+        "as you like"
     );
+    let overview = text("documentation/licenses/license.txt");
     assert!(
-        text("documentation/licenses/LICENSE-APACHE.txt").contains("END OF TERMS AND CONDITIONS")
+        overview.starts_with(
+            "Subject 3.1.4\nCopyright Ada <ada@example.org>\n\nLicensed under MIT OR Zlib, at your option:\n\
+             LICENSE-MIT.txt or ZLIB.md in this folder.\n"
+        ),
+        "{overview}"
     );
-    assert!(text("documentation/licenses/license.txt").contains("MIT OR Apache-2.0"));
+}
+
+#[test]
+fn whose_the_model_is_stands_in_document_and_bill_and_nothing_of_this_project_does() {
+    let (_, files) = read(written());
+    let text = |path: &str| String::from_utf8(files[path].1.clone()).expect("UTF-8");
+    let page = text("documentation/index.html");
+    for told in [
+        "<td>3.1.4</td>",
+        "Copyright Ada &lt;ada@example.org&gt;. Licensed under MIT OR Zlib, at your option: \
+         <a href=\"licenses/LICENSE-MIT.txt\">LICENSE-MIT.txt</a>, <a href=\"licenses/ZLIB.md\">ZLIB.md</a>.",
+    ] {
+        assert!(page.contains(told), "{told}");
+    }
+    let bill: serde_json::Value =
+        serde_json::from_str(&text("documentation/sbom.cdx.json")).unwrap();
+    let whole = &bill["metadata"]["component"];
+    assert_eq!(whole["version"], "3.1.4");
+    assert_eq!(whole["licenses"][0]["expression"], "MIT OR Zlib");
+    for (path, (_, bytes)) in &files {
+        let told = String::from_utf8_lossy(bytes);
+        assert!(!told.contains("authors of this project"), "{path}");
+    }
+}
+
+#[test]
+fn a_package_that_says_nothing_of_itself_claims_nothing() {
+    let (_, files) = read(archive::write(&Contents::of(&interface())).expect("written to memory"));
+    let text = |path: &str| String::from_utf8(files[path].1.clone()).expect("UTF-8");
+    let overview = text("documentation/licenses/license.txt");
+    assert_eq!(overview, "Subject\n\nThe package names no licence.\n");
+    let bill: serde_json::Value =
+        serde_json::from_str(&text("documentation/sbom.cdx.json")).unwrap();
+    assert!(bill["metadata"]["component"]["licenses"].is_null());
+    let xml = text("modelDescription.xml");
+    for attribute in ["author", "version", "copyright", "license"] {
+        assert!(!xml.contains(&format!(" {attribute}=\"\"")), "{attribute}");
+    }
 }
 
 #[test]
@@ -212,7 +256,7 @@ fn picture_and_wiring_are_in_the_document() {
     ] {
         assert!(page.contains(row), "{row}");
     }
-    let bare = document(&interface(), Guide::default());
+    let bare = document(&interface(), PACKAGE, Guide::default());
     for part in ["<figure", "How to wire", "What it does", "OMSimulator"] {
         assert!(page.contains(part) && !bare.contains(part), "{part}");
     }

@@ -5,11 +5,12 @@ mod subject;
 use fmu_archive::{Interface, xml};
 use fmu_declaration::Declare as _;
 use std::collections::{BTreeMap, BTreeSet};
-use subject::{Element, Subject, elements};
+use subject::{Element, PACKAGE, Subject, elements};
 
 fn written() -> Vec<Element> {
     elements(&xml(
-        &Interface::of::<Subject>().expect("a legal declaration")
+        &Interface::of::<Subject>().expect("a legal declaration"),
+        PACKAGE,
     ))
 }
 
@@ -373,7 +374,16 @@ fn root_and_default_experiment_are_complete_and_carry_no_date() {
         ),
         (Some("2.0"), Some("structured"))
     );
-    assert_eq!(all[0].get("license"), Some("MIT OR Apache-2.0"));
+    for (attribute, told) in [
+        ("author", "Ada & Grace"),
+        ("version", "3.1.4"),
+        ("copyright", "Copyright Ada <ada@example.org>"),
+        ("license", "MIT OR Zlib"),
+    ] {
+        assert_eq!(all[0].get(attribute), Some(told));
+    }
+    let tool = concat!("fmu-archive ", env!("CARGO_PKG_VERSION"));
+    assert_eq!(all[0].get("generationTool"), Some(tool));
     assert_eq!(all[0].get("generationDateAndTime"), None);
     let experiment = &all[under(&all, "DefaultExperiment")[0]];
     let times: Vec<_> = ["startTime", "stopTime", "tolerance", "stepSize"]

@@ -1,18 +1,18 @@
 //! The program `catalogue`, which knows the models: this one asks it, and so compiles without any.
 
 use crate::build::private_paths;
-use crate::component::Component;
-use crate::process::{Outcome, at, built, output, program, root, run};
-use serde_json::{Value, json};
-use std::collections::BTreeSet;
-use std::path::{Path, PathBuf};
+use crate::process::{Outcome, at, built, program, root, run};
+use cargo_fmu::pack::{Library, Parts};
+use fmu_archive::Component;
+use serde::Serialize;
+use serde_json::json;
+use std::path::Path;
 
 /// One archive to be packed.
+#[derive(Serialize)]
 pub struct Request {
     name: &'static str,
-    archive: PathBuf,
-    binaries: Vec<Value>,
-    linked: Vec<Component>,
+    parts: Parts,
 }
 
 impl Request {
@@ -20,26 +20,22 @@ impl Request {
     pub fn new(name: &'static str, folder: &Path, linked: Vec<Component>) -> Self {
         Self {
             name,
-            archive: folder.join(name).with_extension("fmu"),
-            binaries: Vec::new(),
-            linked,
+            parts: Parts {
+                archive: folder.join(name).with_extension("fmu"),
+                binaries: Vec::new(),
+                linked,
+                forbidden: forbidden(),
+            },
         }
     }
 
     /// With a library: its folder under `binaries/`, its file extension with the dot, where it lies.
     pub fn add(&mut self, platform: &str, extension: &str, path: &Path) {
-        let library = json!({"platform": platform, "extension": extension, "path": path});
-        self.binaries.push(library);
-    }
-
-    fn json(&self) -> Value {
-        json!({
-            "name": self.name,
-            "archive": self.archive,
-            "binaries": self.binaries,
-            "linked": self.linked,
-            "forbidden": forbidden(),
-        })
+        self.parts.binaries.push(Library {
+            platform: platform.to_owned(),
+            extension: extension.to_owned(),
+            path: path.to_owned(),
+        });
     }
 }
 
@@ -48,12 +44,11 @@ impl Request {
 /// # Errors
 /// When one of its files tells of this machine, or two archives of the same files differ.
 pub fn pack(requests: &[Request]) -> Outcome {
-    let all = Value::Array(requests.iter().map(Request::json).collect());
-    requested("archives", &all)
+    requested("archives", &json!(requests))
 }
 
 /// Asks with a file of JSON.
-fn requested(what: &str, request: &Value) -> Outcome {
+fn requested(what: &str, request: &serde_json::Value) -> Outcome {
     // `fmu` and `dist` may ask at the same time.
     let path = root().join(format!("target/requests-{}.json", std::process::id()));
     std::fs::write(&path, request.to_string()).map_err(at(&path))?;
@@ -88,12 +83,6 @@ pub fn law_headers(folder: &Path) -> Outcome {
 pub fn law_documents(prefix: &Path, linked: Vec<Component>) -> Outcome {
     let request = json!({"prefix": prefix, "linked": linked, "forbidden": forbidden()});
     requested("law-documents", &request)
-}
-
-/// Names of the functions that a library exports.
-pub fn functions() -> Outcome<BTreeSet<String>> {
-    let text = output(&mut program(built("catalogue")?, ["functions"]))?;
-    Ok(text.lines().map(str::to_owned).collect())
 }
 
 fn ask(what: &str, about: Option<&Path>) -> Outcome {

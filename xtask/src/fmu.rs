@@ -3,12 +3,13 @@
 use crate::build::{LAG, SMALLEST, libraries, library_name};
 use crate::catalogue::{Request, descriptions, pack};
 use crate::linked;
-use crate::process::{Failure, Outcome, at, root};
+use crate::process::{Outcome, at, root};
+use cargo_fmu::{pack::replace, platform};
 use std::path::Path;
 
 /// Builds `target/fmu/<Name>.fmu` of every FMU, and `target/fmu/test/` for the tests of the C interface.
 pub fn build_all(bless: bool) -> Outcome {
-    let platform = platform()?;
+    let platform = platform::here()?.folder;
     // Before anything is built: a diff can be read while the libraries are made.
     descriptions(bless)?;
     let built = libraries()?;
@@ -35,28 +36,4 @@ pub fn build_all(bless: bool) -> Outcome {
     }
     let lag = std::fs::read(&built[LAG]).map_err(at(&built[LAG]))?;
     replace(&folder.join("test").join(library_name(LAG)), &lag)
-}
-
-/// Folder of this machine's libraries in an archive.
-fn platform() -> Outcome<&'static str> {
-    match (std::env::consts::OS, std::env::consts::ARCH) {
-        ("linux", "x86_64") => Ok("linux64"),
-        ("linux", "aarch64") => Ok("aarch64-linux"),
-        ("windows", "x86_64") => Ok("win64"),
-        ("macos", "x86_64") => Ok("darwin64"),
-        ("macos", "aarch64") => Ok("aarch64-darwin"),
-        _ => Err(Failure::Missing(
-            "no folder for libraries of this platform is known: expected Linux, Windows or macOS, 64 bit",
-        )),
-    }
-}
-
-/// Replaces a file in one go, so that nobody who loads it sees half of it.
-pub fn replace(path: &Path, bytes: &[u8]) -> Outcome {
-    if let Some(folder) = path.parent() {
-        std::fs::create_dir_all(folder).map_err(at(folder))?;
-    }
-    let new = path.with_extension("new");
-    std::fs::write(&new, bytes).map_err(at(&new))?;
-    std::fs::rename(&new, path).map_err(at(path))
 }

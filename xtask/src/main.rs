@@ -19,12 +19,11 @@
 //! | module | what |
 //! |---|---|
 //! | [`catalogue`] | what the program `catalogue`, which knows the models, is asked for |
-//! | [`build`] | libraries without a trace of this machine |
+//! | [`build`] | the libraries of all FMUs |
 //! | [`fmu`] | archives from libraries |
 //! | [`fuzz`] | random calls on the FMUs, under memcheck |
 //! | [`instructions`] | instructions per call, counted by callgrind |
-//! | [`linked`], [`component`] | what is linked into a library, with its licence texts |
-//! | [`licence`] | which licences may be |
+//! | [`linked`], [`licence`] | what is linked into a library, and which licences may be |
 //! | [`law`] | the C library: headers, static libraries, examples, installation |
 //! | [`dist`] | archives for many platforms |
 //! | [`venv`] | the Python environment |
@@ -35,9 +34,6 @@
 mod build;
 mod catalogue;
 mod checks;
-/// The source that the package `fmu-archive` compiles, too: this one need not depend on it.
-#[path = "../../modelDescription/src/component.rs"]
-mod component;
 mod dist;
 mod fmu;
 mod fuzz;

@@ -75,7 +75,7 @@ pub fn run(stages: &[&'static Stage], keep_going: bool) -> Outcome {
     if failed.is_empty() {
         Ok(())
     } else {
-        Err(Failure::Stages(failed))
+        Err(Failure::Found(format!("failed: {}", failed.join(", "))))
     }
 }
 
@@ -138,7 +138,7 @@ fn in_a_process(name: &'static str) -> Outcome {
         Ok(())
     } else {
         // It has said why.
-        Err(Failure::Stages(vec![name]))
+        Err(Failure::Found(format!("failed: {name}")))
     }
 }
 

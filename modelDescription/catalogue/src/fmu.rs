@@ -1,7 +1,7 @@
 //! The list of the FMUs with their types. The descriptions written from their declarations are committed as
 //! `modelDescription/<Name>.xml`, so that an interface change is a diff that someone reads.
 
-use crate::root;
+use crate::{PACKAGE, root};
 use fmu_archive::{Error, Interface, xml};
 use fmu_declaration::Declare;
 use std::io;
@@ -71,7 +71,7 @@ impl Fmu {
 
     /// Whether the committed description is the one that the declaration gives now.
     pub fn is_committed(&self, interface: &Interface) -> bool {
-        std::fs::read_to_string(self.committed()).is_ok_and(|text| text == xml(interface))
+        std::fs::read_to_string(self.committed()).is_ok_and(|text| text == xml(interface, PACKAGE))
     }
 
     /// Writes the description into the place where it is committed.
@@ -79,7 +79,7 @@ impl Fmu {
     /// # Errors
     /// When the file cannot be written.
     pub fn bless(&self, interface: &Interface) -> io::Result<()> {
-        std::fs::write(self.committed(), xml(interface))
+        std::fs::write(self.committed(), xml(interface, PACKAGE))
     }
 }
 

@@ -15,17 +15,17 @@
 //! | [`fmu`] | the list with types, and the committed descriptions |
 //! | [`wiring`] | which output belongs to which input |
 //! | [`table`] | what the C host must know of an FMU |
-//! | [`functions`] | the names that a library exports |
 //! | [`header`] | the C header of the law's library |
 //! | [`laws`] | the README's table of the laws |
+//! | [`package`] | whose they are: version, copyright, licence |
 //! | [`request`] | what `cargo xtask` asks for: archives from libraries |
 //!
 //! The program `catalogue` answers `cargo xtask`, which so compiles without any model.
 
 pub mod fmu;
-pub mod functions;
 pub mod header;
 pub mod laws;
+pub mod package;
 #[cfg(test)]
 mod pictures;
 pub mod request;
@@ -33,6 +33,7 @@ pub mod table;
 pub mod wiring;
 
 pub use fmu::{FMUS, Fmu};
+pub use package::PACKAGE;
 
 /// The crates of the models, for macros that go through the list.
 pub mod models {

@@ -5,14 +5,14 @@
 //! catalogue bless                  writes them
 //! catalogue archives REQUESTS      packs; a file of JSON, a list of requests
 //! catalogue tables FOLDER          writes <Name>.txt for the C host
-//! catalogue functions              prints the names of the functions that a library exports
 //! catalogue law-headers FOLDER     writes the C headers of the law's library
 //! catalogue law-documents REQUEST  writes its licences and its bill of materials; a file of JSON
 //! catalogue laws                   prints the README's table of the laws
 //! ```
 
+use cargo_fmu::pack::replace;
 use catalogue::request::{LawDocuments, Request};
-use catalogue::{FMUS, Fmu, functions, header, laws, table};
+use catalogue::{FMUS, Fmu, header, laws, table};
 use std::path::Path;
 use std::process::ExitCode;
 
@@ -20,7 +20,7 @@ use std::process::ExitCode;
 #[path = "../../export/examples/integrator.rs"]
 mod integrator;
 
-const USAGE: &str = "usage: catalogue descriptions | bless | archives REQUESTS | tables FOLDER | functions | law-headers FOLDER | law-documents REQUEST | laws";
+const USAGE: &str = "usage: catalogue descriptions | bless | archives REQUESTS | tables FOLDER | law-headers FOLDER | law-documents REQUEST | laws";
 
 fn main() -> ExitCode {
     let words: Vec<_> = std::env::args().skip(1).collect();
@@ -30,12 +30,6 @@ fn main() -> ExitCode {
         ["bless"] => descriptions(true),
         ["archives", requests] => archives(Path::new(requests)),
         ["tables", folder] => tables(Path::new(folder)),
-        ["functions"] => {
-            functions::exported()
-                .iter()
-                .for_each(|name| println!("{name}"));
-            Ok(())
-        }
         ["laws"] => {
             println!("{}", laws::table());
             Ok(())
@@ -82,7 +76,7 @@ fn archives(requests: &Path) -> Result<(), String> {
             .or((request.name == example.name).then_some(&example))
             .ok_or_else(|| format!("no FMU is named {}", request.name))?;
         let bytes = request.archive(fmu)?;
-        replace(&request.archive, &bytes).map_err(at(&request.archive))?;
+        replace(&request.parts.archive, &bytes).map_err(said)?;
     }
     Ok(())
 }
@@ -90,7 +84,7 @@ fn archives(requests: &Path) -> Result<(), String> {
 fn law_headers(folder: &Path) -> Result<(), String> {
     for (name, text) in header::NAMES.iter().zip(header::headers()?) {
         let path = folder.join(name);
-        replace(&path, text.as_bytes()).map_err(at(&path))?;
+        replace(&path, text.as_bytes()).map_err(said)?;
     }
     Ok(())
 }
@@ -100,7 +94,7 @@ fn law_documents(request: &Path) -> Result<(), String> {
     let documents: LawDocuments =
         serde_json::from_str(&text).map_err(|error| format!("{}: {error}", request.display()))?;
     for (path, bytes) in documents.files()? {
-        replace(&path, &bytes).map_err(at(&path))?;
+        replace(&path, &bytes).map_err(said)?;
     }
     Ok(())
 }
@@ -117,16 +111,10 @@ fn tables(folder: &Path) -> Result<(), String> {
     Ok(())
 }
 
-/// Replaces a file in one go, so that nobody who reads it sees half of it.
-fn replace(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
-    if let Some(folder) = path.parent() {
-        std::fs::create_dir_all(folder)?;
-    }
-    let new = path.with_extension("new");
-    std::fs::write(&new, bytes)?;
-    std::fs::rename(&new, path)
-}
-
 fn at(path: &Path) -> impl FnOnce(std::io::Error) -> String {
     move |error| format!("{}: {error}", path.display())
+}
+
+fn said(failure: cargo_fmu::process::Failure) -> String {
+    failure.to_string()
 }

@@ -1,35 +1,19 @@
 //! Archives from libraries, as `cargo xtask` asks for them in a file of JSON.
 
-use crate::{Fmu, wiring};
-use fmu_archive::archive::{self, Binary, Contents};
+use crate::{Fmu, PACKAGE, wiring};
+use cargo_fmu::pack::{Parts, carried};
+use fmu_archive::archive::Contents;
 use fmu_archive::{Component, Guide, Product, licences, sbom};
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
 /// One archive.
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Serialize, Deserialize)]
 pub struct Request {
     /// The FMU.
     pub name: String,
-    /// Where the archive goes.
-    pub archive: PathBuf,
-    /// Its libraries.
-    pub binaries: Vec<Library>,
-    /// What is linked into them.
-    pub linked: Vec<Component>,
-    /// What must stand in none of its files: folders of this machine.
-    pub forbidden: Vec<String>,
-}
-
-/// A library for one platform.
-#[derive(Debug, Deserialize)]
-pub struct Library {
-    /// Folder under `binaries/`.
-    pub platform: String,
-    /// File extension with its dot.
-    pub extension: String,
-    /// Where it lies.
-    pub path: PathBuf,
+    /// Where it goes, libraries, what is linked in.
+    pub parts: Parts,
 }
 
 impl Request {
@@ -42,22 +26,8 @@ impl Request {
         let interface = fmu
             .interface()
             .map_err(|error| format!("declaration of {}: {error}", fmu.name))?;
-        let read = |library: &Library| {
-            std::fs::read(&library.path)
-                .map_err(|error| format!("{}: {error}", library.path.display()))
-        };
-        let libraries: Vec<_> = self.binaries.iter().map(read).collect::<Result<_, _>>()?;
-        let binaries: Vec<_> = std::iter::zip(&self.binaries, &libraries)
-            .map(|(library, bytes)| Binary {
-                platform: &library.platform,
-                extension: &library.extension,
-                bytes,
-            })
-            .collect();
-        let contents = Contents {
-            interface: &interface,
-            binaries: &binaries,
-            linked: &self.linked,
+        self.parts.bytes(&Contents {
+            package: PACKAGE,
             guide: Guide {
                 what: fmu.what,
                 picture: fmu.picture,
@@ -65,22 +35,8 @@ impl Request {
                 system: wiring::system(fmu.name),
             },
             icon: fmu.icon,
-        };
-        for (path, bytes) in archive::files(&contents) {
-            if let Some(folder) = carried(&self.forbidden, &bytes) {
-                return Err(format!(
-                    "{}.fmu: {path} carries the path {folder}",
-                    fmu.name
-                ));
-            }
-        }
-        let write = || archive::write(&contents).map_err(|error| error.to_string());
-        let bytes = write()?;
-        if bytes == write()? {
-            Ok(bytes)
-        } else {
-            Err(format!("{}: two archives differ", fmu.name))
-        }
+            ..Contents::of(&interface)
+        })
     }
 }
 
@@ -105,6 +61,7 @@ impl LawDocuments {
             name: "exo-law",
             about: "The admittance laws as a C library",
             guid: None,
+            package: PACKAGE,
         };
         let licences = licences::files(&product, &self.linked);
         let bill = sbom(&product, &self.linked).into_bytes();
@@ -121,20 +78,11 @@ impl LawDocuments {
     }
 }
 
-/// The first of some texts that the bytes contain.
-fn carried<'a>(texts: &'a [String], bytes: &[u8]) -> Option<&'a String> {
-    texts.iter().find(|text| {
-        !text.is_empty()
-            && bytes
-                .windows(text.len())
-                .any(|part| part == text.as_bytes())
-    })
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::FMUS;
+    use cargo_fmu::pack::Library;
 
     #[test]
     fn an_archive_that_tells_of_this_machine_is_refused_and_the_file_named() {
@@ -142,17 +90,19 @@ mod tests {
         std::fs::write(&path, b"\x7fELF\0/home/me/project/src/lib.rs\0").expect("writable");
         let mut request = Request {
             name: FMUS[0].name.to_owned(),
-            archive: PathBuf::new(),
-            binaries: vec![Library {
-                platform: "linux64".to_owned(),
-                extension: ".so".to_owned(),
-                path: path.clone(),
-            }],
-            linked: Vec::new(),
-            forbidden: vec!["/home/you/".to_owned()],
+            parts: Parts {
+                archive: PathBuf::new(),
+                binaries: vec![Library {
+                    platform: "linux64".to_owned(),
+                    extension: ".so".to_owned(),
+                    path: path.clone(),
+                }],
+                linked: Vec::new(),
+                forbidden: vec!["/home/you/".to_owned()],
+            },
         };
         assert!(request.archive(&FMUS[0]).is_ok());
-        request.forbidden.push("/home/me/".to_owned());
+        request.parts.forbidden.push("/home/me/".to_owned());
         let message = request.archive(&FMUS[0]).unwrap_err();
         let file = format!("binaries/linux64/{}.so", FMUS[0].name);
         assert!(

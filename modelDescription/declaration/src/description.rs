@@ -5,6 +5,7 @@ use crate::variable::IN_ORDER;
 
 /// How the model advances; decides the variability that its inputs and outputs declare and the step size advice.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Stepping {
     /// Runs ticks of a sample period; between them outputs hold. `experiment.step` is the period.
     Sampled,
@@ -14,6 +15,7 @@ pub enum Stepping {
 
 /// Default experiment. All times in seconds.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Experiment {
     /// Start time.
     pub start: f64,

@@ -46,6 +46,7 @@
 //! | [`check`] | a struct's values held against its rows |
 //! | [`description`] | the model as a whole: [`Description`], [`Declare`], default experiment |
 //! | [`guid`] | what identifies an interface |
+//! | `read_back` | declarations that were written as bytes (feature `serde`) |
 //! | [`provenance`] | version and git hash, which every FMU has beside its rows |
 //!
 //! Without the feature `std` there are no strings and no guid, and nothing needs a heap: for a control law, whose
@@ -64,6 +65,8 @@ pub mod place;
 #[cfg(feature = "std")]
 pub mod provenance;
 pub mod range;
+#[cfg(feature = "serde")]
+pub mod read_back;
 mod rows;
 pub mod unit;
 pub mod variable;

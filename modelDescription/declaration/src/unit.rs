@@ -13,6 +13,7 @@
 /// Exponents of the SI base units.
 #[allow(non_snake_case, reason = "symbols of the SI: A, K")]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Base {
     /// kilogram
     pub kg: i8,
@@ -62,6 +63,7 @@ impl Base {
 
 /// A unit in which a variable may be displayed: `display = factor · value + offset`.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Display {
     /// Name, for instance `deg`.
     pub name: &'static str,
@@ -73,6 +75,7 @@ pub struct Display {
 
 /// A unit: its name and its SI base exponents; values are SI, so factor 1 and offset 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Unit {
     /// Name as in the XML, for instance `N.s/m`.
     pub name: &'static str,

@@ -6,6 +6,7 @@ use crate::{Unit, Value};
 
 /// Who computes the variable (FMI 2.0, section 2.2.7).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Causality {
     /// Set by the importer before the run (or, if tunable, during it).
     Parameter,
@@ -43,6 +44,7 @@ impl Causality {
 
 /// When the variable may change (FMI 2.0, section 2.2.7).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Variability {
     /// After initialization never.
     Fixed,
@@ -56,6 +58,7 @@ pub enum Variability {
 
 /// One item of an enumeration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Item {
     /// Value in the interface, from 1.
     pub value: i32,
@@ -74,18 +77,21 @@ impl Item {
 
 /// An enumeration type.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Enumeration {
     /// Name of the type.
     pub name: &'static str,
     /// What it is.
     pub about: &'static str,
     /// Its items, in ascending order of value.
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::read_back::items"))]
     pub items: &'static [Item],
 }
 
 /// How the XML declares a variable that takes the items of an enumeration. The C interface is that of an Integer either
 /// way.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Declared {
     /// As an Enumeration with a type: tools that know enumerations offer the items by name. Some co-simulation masters
     /// know none and drop such a variable, so that it cannot be set there.

@@ -29,6 +29,7 @@
 //! | [`access`] | Get and Set by value reference | 2.1.7 |
 //! | `outputs` | nothing but finite numbers leaves a model | |
 //! | [`provenance`] | version and git hash, which every model has | |
+//! | `interface` | what `cargo fmu` reads, in a build for it alone | |
 //! | [`snapshot`] | FMU state as bytes with a checked format | 2.1.8 |
 //! | [`resource`] | `fmuResourceLocation` as a path | 2.1.5 |
 //! | [`functions`] | the C functions, generic over the model | 2.1, 4.2 |
@@ -44,6 +45,8 @@ pub mod guard;
 mod handle;
 mod identity;
 pub mod instance;
+#[cfg(feature = "interface")]
+pub mod interface;
 pub mod legality;
 pub mod log;
 pub mod model;

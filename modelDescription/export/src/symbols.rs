@@ -20,9 +20,14 @@ macro_rules! export {
             use $crate::{functions, legality::Function};
             type Model = $model;
 
+            $crate::hand_over! { Model }
+
             $crate::export! { @ functions
                 fn fmi2Instantiate(name: FmiString, kind: Type, guid: FmiString, location: FmiString, callbacks: *const Callbacks, visible: Boolean, logging: Boolean) -> Component
-                    { functions::instantiate::<Model>(name, kind, guid, location, callbacks, visible, logging) }
+                {
+                    $crate::provenance::tell($crate::built_from!());
+                    functions::instantiate::<Model>(name, kind, guid, location, callbacks, visible, logging)
+                }
                 fn fmi2FreeInstance(c: Component) -> () { functions::free_instance::<Model>(c) }
                 fn fmi2SetDebugLogging(c: Component, on: Boolean, n: usize, categories: *const FmiString) -> Status
                     { functions::set_debug_logging::<Model>(c, on, n, categories) }
@@ -97,4 +102,12 @@ macro_rules! export {
             unsafe { $body }
         }
     )*};
+}
+
+/// Only a build for `cargo fmu` hands the interface over.
+#[cfg(not(feature = "interface"))]
+#[doc(hidden)]
+#[macro_export]
+macro_rules! hand_over {
+    ($model:ty) => {};
 }

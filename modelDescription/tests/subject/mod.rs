@@ -8,6 +8,15 @@ use fmu_declaration::{
 };
 use std::collections::BTreeMap;
 
+/// Whose the subject is.
+pub const PACKAGE: fmu_archive::Package<'static> = fmu_archive::Package {
+    version: "3.1.4",
+    author: "Ada & Grace",
+    copyright: "Copyright Ada <ada@example.org>",
+    license: "MIT OR Zlib",
+    texts: &[("LICENSE-MIT", b"as you like"), ("ZLIB.md", b"# as is")],
+};
+
 pub const RADIAN: Unit = Unit::new(
     "rad",
     Base {

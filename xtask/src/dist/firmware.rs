@@ -1,11 +1,13 @@
 //! What a microcontroller gets: the C library, compiled and linked for a Cortex-M4F against `core` only.
 
-use super::compile;
-use super::toolchain::{Toolchains, with_libraries};
+use super::folder;
 use crate::build::remapping;
 use crate::law::pack::{Binutils, pack};
 use crate::law::{self, PRECISIONS, Precision};
 use crate::process::{Failure, Outcome, answer, at, program, root, run};
+use cargo_fmu::compile;
+use cargo_fmu::pack::replace;
+use cargo_fmu::toolchain::{Toolchains, with_libraries};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -48,7 +50,7 @@ pub fn build(tools: &Toolchains) -> Outcome<Result<String, String>> {
         let mut build = law::cargo_for(precision);
         run(with_libraries(&mut build, &rust)
             .args(["--target", TARGET, "-Zbuild-std=core", "--target-dir"])
-            .arg(compile::folder())
+            .arg(folder())
             .env("RUSTC", rust.join("usr/bin/rustc"))
             .env("RUSTC_BOOTSTRAP", "1")
             .env(
@@ -72,7 +74,7 @@ pub fn build(tools: &Toolchains) -> Outcome<Result<String, String>> {
             .join("target/dist/law")
             .join(TARGET)
             .join(precision.folder);
-        crate::fmu::replace(&folder.join(precision.library), &bytes)?;
+        replace(&folder.join(precision.library), &bytes)?;
         crate::catalogue::law_headers(&folder)?;
     }
     Ok(Ok(format!("bytes of code: {}", sizes.join(", "))))
@@ -80,13 +82,13 @@ pub fn build(tools: &Toolchains) -> Outcome<Result<String, String>> {
 
 /// What cargo has made.
 pub fn made(precision: &Precision) -> PathBuf {
-    let folder = compile::folder().join(TARGET).join("law");
+    let folder = folder().join(TARGET).join("law");
     folder.join(precision.library)
 }
 
 /// Where the packed library lies.
 pub fn library(precision: &Precision) -> PathBuf {
-    let folder = compile::folder().join(TARGET).join("packed");
+    let folder = folder().join(TARGET).join("packed");
     folder.join(precision.library)
 }
 

@@ -1,11 +1,11 @@
 //! The C host, compiled for a platform and run there: its text is what two platforms must agree on.
 
-use super::compile::{Built, Library};
-use super::debian::quietly;
-use super::platform::{Platform, Runner};
-use super::toolchain::{Toolchains, with_zig};
 use crate::catalogue::tables;
 use crate::process::{Failure, Outcome, at, program, root};
+use cargo_fmu::compile::{Built, Library};
+use cargo_fmu::debian::quietly;
+use cargo_fmu::platform::{Platform, Runner};
+use cargo_fmu::toolchain::Toolchains;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -14,7 +14,7 @@ use std::process::Command;
 const LAG_TABLE: &str = "model lag\nguid ?\nstep 0.01\npanic 1280\nreal-input 0 0 1\nreal-output 256\nreal-output 768\ninteger-output 1024\nboolean-output 1280\n";
 
 /// What the host printed, by library.
-pub type Texts = BTreeMap<&'static str, String>;
+pub type Texts = BTreeMap<String, String>;
 
 /// A compiled host and how to start it.
 pub struct Host {
@@ -46,7 +46,7 @@ impl Host {
                 let programs = tools.zig()?;
                 let mut compiler = program(programs.join("python"), ["-m", "ziglang", "cc"]);
                 compiler.args(["-target", &platform.zig_c_target()]);
-                with_zig(&mut compiler, &programs);
+                tools.with_zig(&mut compiler, &programs);
                 (compiler, tools.qemu()?)
             }
             Runner::Nothing => return Err("nothing here runs its programs".to_owned()),
@@ -89,9 +89,9 @@ impl Host {
         tables(&folder)?;
         let lag = folder.join("lag.txt");
         std::fs::write(&lag, LAG_TABLE).map_err(at(&lag))?;
-        for (&name, library) in &built.libraries {
+        for (name, library) in &built.libraries {
             let table = folder.join(name).with_extension("txt");
-            texts.insert(name, self.run_one(library, &table, tools)?);
+            texts.insert(name.clone(), self.run_one(library, &table, tools)?);
         }
         Ok(texts)
     }
@@ -182,7 +182,7 @@ mod tests {
     use super::*;
 
     fn texts(text: &str) -> Texts {
-        Texts::from([("Lag", text.to_owned())])
+        Texts::from([("Lag".to_owned(), text.to_owned())])
     }
 
     #[test]

@@ -6,40 +6,30 @@
 //!
 //! | module | what |
 //! |---|---|
-//! | [`mod@platform`] | the table of the platforms |
-//! | [`debian`], [`toolchain`] | compilers, linkers, emulators, fetched into `target/toolchains` |
-//! | [`compile`] | one platform's libraries |
+//! | [`cargo_fmu`] | platforms, their tools (fetched into `target/toolchains`), libraries and what they need |
 //! | [`mod@firmware`], [`processor`] | the C library for a microcontroller, and run emulated |
 //! | [`mod@stack`] | the stack that it takes there |
-//! | [`mod@inspect`] | exports, needed libraries, floor of the C library |
-//! | [`runtime`] | what the tools link in, with its licences |
 //! | [`host`] | the C host, and what two platforms must agree on |
 
-mod compile;
-mod debian;
 mod firmware;
 mod host;
-mod inspect;
-mod platform;
 mod processor;
-mod runtime;
 mod stack;
-mod toolchain;
 
-use crate::build::forbid_private_paths;
+use crate::build;
 use crate::catalogue::{Request, pack};
-use crate::component::Component;
 use crate::linked;
-use crate::process::{Failure, Outcome, at, root, run};
+use crate::process::{Failure, Outcome, at, root, run, workspace};
 use crate::schedule;
 use crate::venv::{Packages, Venv};
-use compile::{Built, Plan};
+use cargo_fmu::cdylib::Cdylib;
+use cargo_fmu::compile::{Built, Inspected, Plan};
+use cargo_fmu::platform::{GLIBC, PLATFORMS, Platform, Runner};
+use cargo_fmu::toolchain::Toolchains;
+pub use cargo_fmu::toolchain::with_libraries;
+use fmu_archive::Component;
 use host::{Host, Texts, compare, moves};
-use inspect::inspect;
-use platform::{GLIBC, PLATFORMS, Platform, Runner};
 use std::time::Instant;
-use toolchain::Toolchains;
-pub use toolchain::with_libraries;
 
 /// One platform's row in the summary.
 struct Row {
@@ -51,6 +41,23 @@ struct Row {
     ran: String,
 }
 
+/// The tools, between calls.
+fn tools() -> Toolchains {
+    Toolchains::at(root().join("target/toolchains"))
+}
+
+/// Where builds live between calls.
+fn folder() -> std::path::PathBuf {
+    root().join("target/dist-build")
+}
+
+/// All FMUs and the test model.
+fn libraries() -> Vec<Cdylib> {
+    let mut libraries = build::fmus();
+    libraries.push(build::example(build::LAG));
+    libraries
+}
+
 /// Names of the platforms.
 #[cfg(test)]
 pub fn platforms() -> Vec<&'static str> {
@@ -59,13 +66,13 @@ pub fn platforms() -> Vec<&'static str> {
 
 /// Fetches all tools that can be had; those that cannot are named by who needs them.
 pub fn toolchains() -> Outcome {
-    Toolchains::default().fetch();
+    tools().fetch();
     Ok(())
 }
 
 /// Builds and inspects one platform's libraries, if the tools for it can be had.
 pub fn platform(folder: &str) -> Outcome {
-    let tools = Toolchains::default();
+    let tools = tools();
     let platform = PLATFORMS.iter().find(|one| one.folder == folder);
     let platform = platform.ok_or(Failure::Missing("no such platform"))?;
     let row = row(platform, &tools)?;
@@ -75,7 +82,7 @@ pub fn platform(folder: &str) -> Outcome {
 
 /// Builds the C library for a microcontroller, if the tools for it can be had.
 pub fn firmware() -> Outcome {
-    match firmware::build(&Toolchains::default())? {
+    match firmware::build(&tools())? {
         Ok(said) => println!("   {said}"),
         Err(reason) => println!("   not built: {reason}"),
     }
@@ -84,16 +91,17 @@ pub fn firmware() -> Outcome {
 
 /// Builds the smallest FMU a second time in another folder: the same bytes.
 pub fn twice() -> Outcome {
-    let tools = Toolchains::default();
+    let tools = tools();
     built_twice(&row(&PLATFORMS[0], &tools)?, &tools)
 }
 
 fn row(platform: &'static Platform, tools: &Toolchains) -> Outcome<Row> {
     let (built, needs) = match Plan::of(platform, tools) {
         Ok(plan) => {
-            let built = plan.build(platform, &compile::folder(), None)?;
-            let needs = inspected(platform, &built)?;
-            (Some(built), needs)
+            let built = plan.build(&workspace(), platform, &folder(), &libraries())?;
+            let seen = built.inspected(&workspace(), platform)?;
+            no_mathematics(platform, &seen)?;
+            (Some(built), seen.said)
         }
         Err(reason) => (None, format!("not built: {reason}")),
     };
@@ -105,9 +113,21 @@ fn row(platform: &'static Platform, tools: &Toolchains) -> Outcome<Row> {
     })
 }
 
+/// The same inputs give the same bits everywhere: nothing may be called that a platform rounds in its own way.
+fn no_mathematics(platform: &Platform, seen: &Inspected) -> Outcome {
+    match seen.rounded.first() {
+        None => Ok(()),
+        Some((library, function)) => Err(Failure::Found(format!(
+            "{library} for {} calls {function} of the platform's C library, which each rounds in its own way: expected the libm \
+             crate",
+            platform.folder
+        ))),
+    }
+}
+
 /// Builds `target/dist/*.fmu`; with `check` also runs and compares what can be run here, and builds one library twice.
 pub fn dist(check: bool) -> Outcome {
-    let tools = Toolchains::default();
+    let tools = tools();
     let mut rows = Vec::new();
     for platform in &PLATFORMS {
         println!("\n── {}", platform.folder);
@@ -137,30 +157,6 @@ pub fn dist(check: bool) -> Outcome {
     summary(&rows, &firmware)
 }
 
-/// Inspects every library of a platform; says what they need.
-fn inspected(platform: &Platform, built: &Built) -> Outcome<String> {
-    let mut needs = std::collections::BTreeSet::new();
-    let functions = crate::catalogue::functions()?;
-    let (mut glibc, mut size) = (None, 0);
-    for (name, library) in &built.libraries {
-        let report = inspect(&library.bytes, platform, &functions, built.strict)
-            .map_err(|what| Failure::Found(format!("{name} for {}: {what}", platform.folder)))?;
-        forbid_private_paths(&library.path.to_string_lossy(), &library.bytes)?;
-        needs.extend(report.needs);
-        glibc = glibc.max(report.glibc);
-        size = size.max(library.bytes.len());
-    }
-    let needs = needs.into_iter().collect::<Vec<_>>().join(", ");
-    let floor = match glibc {
-        Some((major, minor)) if built.strict => format!("glibc {major}.{minor}; "),
-        Some((major, minor)) => {
-            format!("glibc {major}.{minor}, this machine's, for want of zig's linker; ")
-        }
-        None => String::new(),
-    };
-    Ok(format!("{floor}needs {needs}; at most {} kB", size / 1000))
-}
-
 /// Writes the archives.
 fn merge(rows: &[Row]) -> Outcome {
     let built: Vec<_> = rows
@@ -170,10 +166,12 @@ fn merge(rows: &[Row]) -> Outcome {
     if built.is_empty() {
         return Err(Failure::Found("built for no platform".to_owned()));
     }
+    let runtimes = || built.iter().flat_map(|(_, built)| &built.runtimes);
+    runtimes().try_for_each(linked::may_be_linked)?;
     let mut requests = Vec::new();
     for fmu in fmus::ALL {
         let mut components = linked::components(&fmu.package())?;
-        components.extend(built.iter().flat_map(|(_, built)| built.runtimes.clone()));
+        components.extend(runtimes().cloned());
         components.sort_by_key(Component::id);
         // The two compilers can be of one version.
         components.dedup_by_key(|component| component.id());
@@ -248,7 +246,9 @@ fn built_twice(row: &Row, tools: &Toolchains) -> Outcome {
     if folder.exists() {
         std::fs::remove_dir_all(&folder).map_err(at(&folder))?;
     }
-    let second = plan.build(platform, &folder, Some(SMALLEST))?;
+    let mut smallest = libraries();
+    smallest.retain(|cdylib| cdylib.name == SMALLEST);
+    let second = plan.build(&workspace(), platform, &folder, &smallest)?;
     let bytes = |built: &Built| {
         built
             .libraries

@@ -4,14 +4,13 @@
 //! qemu's user mode has no Cortex-M of its own. It executes the same instructions as an Arm of the A profile, which knows
 //! them all; what the profiles differ in (interrupts, the memory map) is not in the library.
 
-use super::compile;
-use super::debian::quietly;
 use super::firmware::{TARGET, linker};
 use super::host::{Texts, compare, printed};
 use super::stack;
-use super::toolchain::{Toolchains, limited, with_libraries, with_zig};
 use crate::law::{self, PRECISIONS, Precision};
 use crate::process::{Failure, Outcome, at, program, root};
+use cargo_fmu::debian::quietly;
+use cargo_fmu::toolchain::{Toolchains, limited, with_libraries};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -32,7 +31,7 @@ pub fn run(tools: &Toolchains) -> Outcome<Result<String, String>> {
     for precision in &PRECISIONS {
         let executable = on_this_machine(precision)?;
         let text = printed(&mut program::<&Path>(&executable, []), &executable)?;
-        here.insert(precision.folder, text);
+        here.insert(precision.folder.to_owned(), text);
         let emulated = |define: Option<&str>| {
             let image = on_the_microcontroller(precision, define, &zig, &binutils)?;
             let mut emulated = limited(qemu.join("usr/bin/qemu-arm-static"));
@@ -40,7 +39,7 @@ pub fn run(tools: &Toolchains) -> Outcome<Result<String, String>> {
             emulated.args(["-cpu", "cortex-a15"]).arg(&image);
             printed(&mut emulated, &image)
         };
-        there.insert(precision.folder, emulated(None)?);
+        there.insert(precision.folder.to_owned(), emulated(None)?);
         stacks.push(stack::check(precision, &emulated(Some(stack::PAINTED))?)?);
     }
     let lines = compare(&here, &there)
@@ -79,7 +78,7 @@ fn on_the_microcontroller(
         "-fno-unwind-tables",
         "-fno-asynchronous-unwind-tables",
     ]);
-    source(with_zig(&mut compiler, zig), precision);
+    source(super::tools().with_zig(&mut compiler, zig), precision);
     compiled(compiler.args(define).arg("-c").arg("-o").arg(&object))?;
     let mut link = linker(binutils);
     link.args(["--gc-sections", "-e", "start", "-Ttext=0x10000"]);
@@ -101,7 +100,7 @@ fn source(compiler: &mut Command, precision: &Precision) {
 }
 
 fn folder() -> Outcome<PathBuf> {
-    let folder = compile::folder().join("host");
+    let folder = super::folder().join("host");
     std::fs::create_dir_all(&folder).map_err(at(&folder))?;
     Ok(folder)
 }

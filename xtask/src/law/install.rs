@@ -13,9 +13,9 @@
 
 use super::{HEADERS, PRECISIONS, Precision};
 use crate::catalogue::law_documents;
-use crate::component::Component;
 use crate::linked;
 use crate::process::{Outcome, at};
+use fmu_archive::Component;
 use std::path::{Path, PathBuf};
 
 /// The version of the library: the workspace has one.
@@ -40,7 +40,7 @@ pub fn install(prefix: &Path, built: &Path) -> Outcome {
         super::copy(&library, &prefix.join("lib").join(precision.library))?;
     }
     for (path, text) in files() {
-        crate::fmu::replace(&prefix.join(path), text.as_bytes())?;
+        cargo_fmu::pack::replace(&prefix.join(path), text.as_bytes())?;
     }
     law_documents(prefix, components()?)?;
     println!("{}", prefix.display());

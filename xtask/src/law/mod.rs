@@ -108,7 +108,7 @@ pub fn build_all(bless: bool, prefix: Option<&Path>) -> Outcome {
 
 fn copy(from: &Path, to: &Path) -> Outcome {
     let bytes = std::fs::read(from).map_err(at(from))?;
-    crate::fmu::replace(to, &bytes)
+    cargo_fmu::pack::replace(to, &bytes)
 }
 
 /// The call of cargo that builds the static library.

@@ -45,7 +45,7 @@ pub fn headers() -> Result<[String; 2], String> {
 
 /// Before what depends on the precision: the version, and a constant for every item.
 fn preamble() -> String {
-    let version = fmu_archive::VERSION;
+    let version = crate::PACKAGE.version;
     let numbers = ["MAJOR", "MINOR", "PATCH"];
     let parts = version.split(['.', '-', '+']).zip(numbers);
     let parts: Vec<_> = parts

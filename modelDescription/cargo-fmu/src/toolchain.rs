@@ -1,9 +1,9 @@
-//! The tools that make and run libraries of other platforms, in `target/toolchains`. Each is fetched once; what cannot
+//! The tools that make and run libraries of other platforms, in a folder of their own. Each is fetched once; what cannot
 //! be had is a reason in words, not a failure.
 
-use super::debian::{Debian, quietly};
-use crate::build::sysroot;
-use crate::process::{Outcome, answer, at, program, root};
+use crate::debian::{Debian, quietly};
+use crate::process::{Outcome, answer, at, program};
+use crate::trace::sysroot;
 use std::cell::OnceCell;
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
@@ -12,9 +12,12 @@ use std::process::Command;
 /// A tool's folder, or why it is not there.
 type Tool = Result<PathBuf, String>;
 
+/// Versions and hashes of zig and cargo-zigbuild.
+const WHEELS: &str = include_str!("../wheels.lock");
+
 /// All tools.
-#[derive(Default)]
 pub struct Toolchains {
+    folder: PathBuf,
     debian: OnceCell<Result<Debian, String>>,
     zig: OnceCell<Tool>,
     rust: OnceCell<Tool>,
@@ -26,6 +29,26 @@ pub struct Toolchains {
 }
 
 impl Toolchains {
+    /// Tools that lie in a folder, or will.
+    pub fn at(folder: PathBuf) -> Self {
+        Self {
+            folder,
+            debian: OnceCell::new(),
+            zig: OnceCell::new(),
+            rust: OnceCell::new(),
+            apple: OnceCell::new(),
+            mingw: OnceCell::new(),
+            arm_binutils: OnceCell::new(),
+            wine: OnceCell::new(),
+            qemu: OnceCell::new(),
+        }
+    }
+
+    /// Where they lie.
+    pub fn folder(&self) -> &Path {
+        &self.folder
+    }
+
     /// Fetches all, those that nothing here can use included.
     pub fn fetch(&self) {
         for (name, tool) in [
@@ -48,9 +71,7 @@ impl Toolchains {
     pub fn zig(&self) -> Tool {
         self.zig
             .get_or_init(|| {
-                let lock = root().join("xtask/wheels.lock");
-                let wanted = std::fs::read_to_string(&lock).unwrap_or_default();
-                let folder = complete("zig", &wanted, |folder| wheels(folder, &lock))?;
+                let folder = self.complete("zig", WHEELS, wheels)?;
                 Ok(folder.join("bin"))
             })
             .clone()
@@ -60,7 +81,7 @@ impl Toolchains {
     pub fn rust(&self) -> Tool {
         self.rust
             .get_or_init(|| {
-                complete("rust", "1", |_| {
+                self.complete("rust", "1", |_| {
                     let debian = self.debian()?;
                     let shared = debian
                         .dependencies("libstd-rust-web-dev")
@@ -93,7 +114,7 @@ impl Toolchains {
                     .map_err(|cause| format!("zig's names of macOS cannot be read: {cause}"))?
                     .replace("arm64e.x1-", "arm64-")
                     .replace("arm64e-", "arm64-");
-                complete("apple", &text, |folder| {
+                self.complete("apple", &text, |folder| {
                     let libraries = folder.join("usr/lib");
                     std::fs::create_dir_all(&libraries).map_err(|cause| cause.to_string())?;
                     for name in ["libSystem.tbd", "libc.tbd", "libm.tbd"] {
@@ -170,7 +191,7 @@ impl Toolchains {
     fn packages(&self, cell: &OnceCell<Tool>, name: &str, packages: &[&str]) -> Tool {
         let packages: Vec<_> = packages.iter().map(|&name| name.to_owned()).collect();
         cell.get_or_init(|| {
-            complete(name, &packages.join(" "), |_| {
+            self.complete(name, &packages.join(" "), |_| {
                 self.debian()?.unpacked(name, &packages).map(|_| ())
             })
         })
@@ -178,8 +199,40 @@ impl Toolchains {
     }
 
     fn debian(&self) -> Result<&Debian, String> {
-        let debian = self.debian.get_or_init(|| Debian::at(folder()));
+        let debian = self.debian.get_or_init(|| Debian::at(self.folder.clone()));
         debian.as_ref().map_err(Clone::clone)
+    }
+
+    /// zig's caches, kept out of the user's home.
+    pub fn with_zig<'a>(&self, command: &'a mut Command, programs: &Path) -> &'a mut Command {
+        command
+            .env("PATH", path_with(programs))
+            .env("ZIG_GLOBAL_CACHE_DIR", self.folder.join("zig-cache"))
+            .env("ZIG_LOCAL_CACHE_DIR", self.folder.join("zig-cache"))
+            .env(
+                "CARGO_ZIGBUILD_CACHE_DIR",
+                self.folder.join("zigbuild-cache"),
+            )
+    }
+
+    /// Makes a tool's folder, unless it was completed before from the same `wanted`.
+    fn complete(
+        &self,
+        name: &str,
+        wanted: &str,
+        make: impl FnOnce(&Path) -> Result<(), String>,
+    ) -> Tool {
+        let folder = self.folder.join(name);
+        let stamp = folder.join("made-from");
+        if std::fs::read_to_string(&stamp).is_ok_and(|text| text == wanted) {
+            return Ok(folder);
+        }
+        println!("fetching {name} into {}", self.folder.display());
+        let _ = std::fs::remove_dir_all(&folder);
+        make(&folder)?;
+        // Last: an interrupted one leaves no stamp.
+        write(&stamp, wanted).map_err(|failure| failure.to_string())?;
+        Ok(folder)
     }
 
     /// A program of a Windows machine.
@@ -187,7 +240,7 @@ impl Toolchains {
         let mut command = limited(folder.join("usr/lib/wine/wine64"));
         with_libraries(&mut command, folder)
             .arg(executable)
-            .env("WINEPREFIX", self::folder().join("wine-prefix"))
+            .env("WINEPREFIX", self.folder.join("wine-prefix"))
             .env("WINEDLLOVERRIDES", "mscoree,mshtml=")
             .env("WINEDEBUG", "-all")
             .env_remove("DISPLAY");
@@ -212,11 +265,6 @@ pub fn limited(emulator: PathBuf) -> Command {
     command
 }
 
-/// Where all tools lie.
-pub fn folder() -> PathBuf {
-    root().join("target/toolchains")
-}
-
 /// `PATH` with a folder before all others.
 pub fn path_with(first: &Path) -> OsString {
     let others = std::env::var_os("PATH").unwrap_or_default();
@@ -238,39 +286,17 @@ pub fn with_libraries<'a>(command: &'a mut Command, folder: &Path) -> &'a mut Co
     command.env("LD_LIBRARY_PATH", folder.join("usr/lib/x86_64-linux-gnu"))
 }
 
-/// zig's caches, kept out of the user's home.
-pub fn with_zig<'a>(command: &'a mut Command, programs: &Path) -> &'a mut Command {
-    command
-        .env("PATH", path_with(programs))
-        .env("ZIG_GLOBAL_CACHE_DIR", folder().join("zig-cache"))
-        .env("ZIG_LOCAL_CACHE_DIR", folder().join("zig-cache"))
-        .env("CARGO_ZIGBUILD_CACHE_DIR", folder().join("zigbuild-cache"))
-}
-
-/// Makes a tool's folder, unless it was completed before from the same `wanted`.
-fn complete(name: &str, wanted: &str, make: impl FnOnce(&Path) -> Result<(), String>) -> Tool {
-    let folder = folder().join(name);
-    let stamp = folder.join("made-from");
-    if std::fs::read_to_string(&stamp).is_ok_and(|text| text == wanted) {
-        return Ok(folder);
-    }
-    println!("fetching {name} into target/toolchains");
-    let _ = std::fs::remove_dir_all(&folder);
-    make(&folder)?;
-    // Last: an interrupted one leaves no stamp.
-    write(&stamp, wanted).map_err(|failure| failure.to_string())?;
-    Ok(folder)
-}
-
 fn write(path: &Path, text: &str) -> Outcome {
     std::fs::write(path, text).map_err(at(path))
 }
 
 /// A Python environment of its own: these tools are none of the harness' business.
-fn wheels(folder: &Path, lock: &Path) -> Result<(), String> {
-    let reason = "the wheels of xtask/wheels.lock cannot be installed";
+fn wheels(folder: &Path) -> Result<(), String> {
+    let reason = "cargo-zigbuild and ziglang cannot be installed from Python's package index";
     let mut make = program("python3", ["-m", "venv"]);
     quietly(make.arg(folder)).map_err(|_| reason.to_owned())?;
+    let lock = folder.join("wheels.lock");
+    write(&lock, WHEELS).map_err(|failure| failure.to_string())?;
     let mut pip = program(folder.join("bin/python"), ["-m", "pip", "install"]);
     pip.args([
         "--quiet",

@@ -1,5 +1,7 @@
 //! The table of the platforms.
 
+use crate::process::{Failure, Outcome};
+
 /// Which standard library a platform's libraries are linked with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Standard {
@@ -41,9 +43,7 @@ pub struct Platform {
     pub folder: &'static str,
     /// Rust's name.
     pub target: &'static str,
-    /// Start of a library's file name as cargo writes it.
-    pub prefix: &'static str,
-    /// Its end, in the archive too.
+    /// End of a library's file name.
     pub suffix: &'static str,
     /// Standard library.
     pub standard: Standard,
@@ -61,7 +61,6 @@ pub const PLATFORMS: [Platform; 5] = [
     Platform {
         folder: "linux64",
         target: "x86_64-unknown-linux-gnu",
-        prefix: "lib",
         suffix: ".so",
         standard: Standard::Shipped,
         linker: Linker::Zig,
@@ -70,7 +69,6 @@ pub const PLATFORMS: [Platform; 5] = [
     Platform {
         folder: "win64",
         target: "x86_64-pc-windows-gnu",
-        prefix: "",
         suffix: ".dll",
         standard: Standard::FromSource,
         linker: Linker::MinGw,
@@ -79,7 +77,6 @@ pub const PLATFORMS: [Platform; 5] = [
     Platform {
         folder: "aarch64-linux",
         target: "aarch64-unknown-linux-gnu",
-        prefix: "lib",
         suffix: ".so",
         standard: Standard::FromSource,
         linker: Linker::Zig,
@@ -88,7 +85,6 @@ pub const PLATFORMS: [Platform; 5] = [
     Platform {
         folder: "darwin64",
         target: "x86_64-apple-darwin",
-        prefix: "lib",
         suffix: ".dylib",
         standard: Standard::FromSource,
         linker: Linker::Lld,
@@ -97,7 +93,6 @@ pub const PLATFORMS: [Platform; 5] = [
     Platform {
         folder: "aarch64-darwin",
         target: "aarch64-apple-darwin",
-        prefix: "lib",
         suffix: ".dylib",
         standard: Standard::FromSource,
         linker: Linker::Lld,
@@ -105,7 +100,41 @@ pub const PLATFORMS: [Platform; 5] = [
     },
 ];
 
+/// The platform that this program runs on.
+///
+/// # Errors
+/// When archives have no folder for it.
+pub fn here() -> Outcome<&'static Platform> {
+    let target = match (std::env::consts::OS, std::env::consts::ARCH) {
+        ("linux", "x86_64") => "linux64",
+        ("linux", "aarch64") => "aarch64-linux",
+        ("windows", "x86_64") => "win64",
+        ("macos", "x86_64") => "darwin64",
+        ("macos", "aarch64") => "aarch64-darwin",
+        _ => "",
+    };
+    let known = PLATFORMS.iter().find(|platform| platform.folder == target);
+    known.ok_or(Failure::Missing(
+        "no folder for libraries of this platform is known: expected Linux, Windows or macOS, 64 bit",
+    ))
+}
+
 impl Platform {
+    /// One by its folder in an archive.
+    ///
+    /// # Errors
+    /// Names those that are known.
+    pub fn named(folder: &str) -> Outcome<&'static Self> {
+        let known = PLATFORMS.iter().find(|platform| platform.folder == folder);
+        known.ok_or_else(|| {
+            let names = PLATFORMS
+                .each_ref()
+                .map(|platform| platform.folder)
+                .join(", ");
+            Failure::Found(format!("platform {folder}: expected one of {names}"))
+        })
+    }
+
     /// What cargo-zigbuild is told: the target, with the oldest C library to support.
     pub fn zig_target(&self) -> String {
         format!("{}.{}.{}", self.target, GLIBC.0, GLIBC.1)

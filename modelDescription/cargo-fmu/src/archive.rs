@@ -1,0 +1,210 @@
+//! A stranger's archives: for this machine, or for many platforms.
+
+use crate::compile::{Inspected, Plan};
+use crate::facts::Facts;
+use crate::functions;
+use crate::inspect::inspect;
+use crate::pack::{Library, Parts, replace};
+use crate::platform::Platform;
+use crate::process::{Failure, Outcome, at};
+use crate::subject::Subject;
+use crate::toolchain::Toolchains;
+use crate::{compile, interface, linked, platform, trace};
+use fmu_archive::archive::Contents;
+use fmu_archive::{Component, Guide, Interface, Package};
+use std::path::{Path, PathBuf};
+
+/// The contents of an archive of the subject's package, and where it goes.
+pub(crate) fn pack(
+    subject: &Subject,
+    facts: &Facts,
+    interface: &Interface,
+    binaries: Vec<Library>,
+    linked: Vec<Component>,
+    archive: PathBuf,
+) -> Outcome<PathBuf> {
+    let texts: Vec<_> = facts
+        .texts
+        .iter()
+        .map(|(name, text)| (name.as_str(), text.as_slice()))
+        .collect();
+    let plain = Contents::of(interface);
+    let contents = Contents {
+        package: Package {
+            version: &facts.version,
+            author: &facts.author,
+            copyright: &facts.copyright,
+            license: &facts.license,
+            texts: &texts,
+        },
+        guide: Guide {
+            what: &facts.guide,
+            picture: &facts.picture,
+            ..Guide::default()
+        },
+        icon: facts.icon.as_deref().unwrap_or(plain.icon),
+        extra: &facts.extra,
+        ..plain
+    };
+    let folder = |path: std::ffi::OsString| format!("{}/", path.to_string_lossy());
+    let parts = Parts {
+        archive,
+        binaries,
+        linked,
+        forbidden: trace::private_paths(&subject.workspace)
+            .into_iter()
+            .map(folder)
+            .collect(),
+    };
+    let bytes = parts.bytes(&contents).map_err(Failure::Found)?;
+    replace(&parts.archive, &bytes)?;
+    Ok(parts.archive)
+}
+
+/// Builds the archives of all models of the subject for this machine, into the folder `out`; without it into `fmu` in cargo's
+/// target folder.
+///
+/// # Errors
+/// When something does not compile, a declaration breaks a rule, or a file tells of this machine.
+pub fn build(subject: &Subject, profile: &str, out: Option<&Path>) -> Outcome<Vec<PathBuf>> {
+    let facts = Facts::of(&subject.package, &subject.workspace.root)?;
+    let here = platform::here()?;
+    let out = out.map_or_else(|| subject.workspace.target.join("fmu"), Path::to_owned);
+    let target = subject.workspace.target.join("fmu-build");
+    let linked = linked::components(&subject.workspace, &subject.package.name)?;
+    let mut archives = Vec::new();
+    for cdylib in &subject.cdylibs {
+        // The library of the archive takes the place of the one that hands the interface over.
+        let interface = interface::read(subject, cdylib, &target, profile)?;
+        let one = std::slice::from_ref(cdylib);
+        let library = compile::here(&subject.workspace, one, &target, profile)?;
+        let path = library[&cdylib.name].clone();
+        inspected(here, &path)?;
+        let library = Library {
+            platform: here.folder.to_owned(),
+            extension: here.suffix.to_owned(),
+            path,
+        };
+        let archive = out.join(interface.name).with_extension("fmu");
+        archives.push(pack(
+            subject,
+            &facts,
+            &interface,
+            vec![library],
+            linked.clone(),
+            archive,
+        )?);
+    }
+    Ok(archives)
+}
+
+/// Whether it offers the standard's functions and no others. Says what it calls that rounds differently elsewhere.
+fn inspected(platform: &Platform, library: &Path) -> Outcome {
+    let bytes = std::fs::read(library).map_err(at(library))?;
+    let name = library.file_name().unwrap_or_default().to_string_lossy();
+    let report = inspect(&bytes, platform, &functions::exported(), false)
+        .map_err(|what| Failure::Found(format!("{name}: {what}")))?;
+    for function in &report.rounded {
+        note_rounded(&name, function);
+    }
+    Ok(())
+}
+
+fn note_rounded(library: &str, function: &str) {
+    println!(
+        "note: {library} calls {function} of the C library, which each platform rounds in its own way: the libm crate gives the \
+         same bits everywhere"
+    );
+}
+
+/// One platform of [`dist`]: what its libraries need, or why there are none.
+pub struct Row {
+    /// The platform.
+    pub platform: &'static Platform,
+    /// Whether its libraries are in the archives.
+    pub built: bool,
+    /// In words.
+    pub said: String,
+}
+
+/// Builds the archives of all models of the subject for many platforms, into the folder `out`; without it into `dist` in cargo's
+/// target folder. A platform whose tools cannot be had is left out.
+///
+/// # Errors
+/// When what has its tools here does not compile, or something is wrong with it; when no platform has its tools.
+pub fn dist(
+    subject: &Subject,
+    platforms: &[&'static Platform],
+    tools: &Toolchains,
+    out: Option<&Path>,
+) -> Outcome<(Vec<PathBuf>, Vec<Row>)> {
+    let facts = Facts::of(&subject.package, &subject.workspace.root)?;
+    let workspace = &subject.workspace;
+    let target = workspace.target.join("fmu-build");
+    let mut interfaces = Vec::new();
+    for cdylib in &subject.cdylibs {
+        interfaces.push(interface::read(subject, cdylib, &target, "release")?);
+    }
+    let mut linked = linked::components(workspace, &subject.package.name)?;
+    let mut binaries = vec![Vec::new(); subject.cdylibs.len()];
+    let mut rows = Vec::new();
+    for platform in platforms.iter().copied() {
+        let plan = match Plan::of(platform, tools) {
+            Ok(plan) => plan,
+            Err(said) => {
+                rows.push(Row {
+                    platform,
+                    built: false,
+                    said,
+                });
+                continue;
+            }
+        };
+        println!("   Building for {}", platform.folder);
+        let built = plan.build(workspace, platform, &target, &subject.cdylibs)?;
+        for (cdylib, binaries) in subject.cdylibs.iter().zip(&mut binaries) {
+            binaries.push(Library {
+                platform: platform.folder.to_owned(),
+                extension: platform.suffix.to_owned(),
+                path: built.libraries[&cdylib.name].path.clone(),
+            });
+        }
+        let Inspected { said, rounded } = built.inspected(workspace, platform)?;
+        for (library, function) in rounded {
+            note_rounded(&library, &function);
+        }
+        linked.extend(built.runtimes);
+        rows.push(Row {
+            platform,
+            built: true,
+            said,
+        });
+    }
+    linked.sort_by_key(Component::id);
+    // The two compilers can be of one version.
+    linked.dedup_by_key(|component| component.id());
+    if rows.iter().all(|row| !row.built) {
+        let reasons: Vec<_> = rows
+            .iter()
+            .map(|row| format!("\n  {}: {}", row.platform.folder, row.said))
+            .collect();
+        return Err(Failure::Found(format!(
+            "built for no platform:{}",
+            reasons.concat()
+        )));
+    }
+    let folder = out.map_or_else(|| workspace.target.join("dist"), Path::to_owned);
+    let archive = |(interface, binaries): (&Interface, Vec<Library>)| {
+        let archive = folder.join(interface.name).with_extension("fmu");
+        pack(
+            subject,
+            &facts,
+            interface,
+            binaries,
+            linked.clone(),
+            archive,
+        )
+    };
+    let archives = interfaces.iter().zip(binaries).map(archive);
+    Ok((archives.collect::<Outcome<_>>()?, rows))
+}

@@ -1,0 +1,197 @@
+//! The variables of an archive as a table, whoever has written it, for FMI 2.0 or 3.0.
+
+use crate::process::{Failure, Outcome, at};
+use quick_xml::Reader;
+use quick_xml::events::{BytesStart, Event};
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+use std::io::Read as _;
+use std::path::Path;
+
+/// What the table shows of a variable; the last one is as wide as it is.
+const COLUMNS: [&str; 9] = [
+    "name",
+    "type",
+    "causality",
+    "variability",
+    "unit",
+    "start",
+    "min",
+    "max",
+    "description",
+];
+
+type Attributes = BTreeMap<String, String>;
+
+/// The table of an archive.
+///
+/// # Errors
+/// When it is no archive with a `modelDescription.xml`.
+pub fn archive(path: &Path) -> Outcome<String> {
+    let file = std::fs::File::open(path).map_err(at(path))?;
+    let expected = |what: String| {
+        let path = path.display();
+        Failure::Found(format!(
+            "{path}: expected an FMU, a zip archive with modelDescription.xml: {what}"
+        ))
+    };
+    let mut zip = zip::ZipArchive::new(file).map_err(|error| expected(error.to_string()))?;
+    let mut xml = String::new();
+    let mut entry = zip
+        .by_name("modelDescription.xml")
+        .map_err(|error| expected(error.to_string()))?;
+    entry.read_to_string(&mut xml).map_err(at(path))?;
+    table(&xml).map_err(|error| expected(error.to_string()))
+}
+
+/// The table of a description.
+///
+/// # Errors
+/// When it is no XML.
+pub fn table(xml: &str) -> Result<String, quick_xml::Error> {
+    let (model, variables) = read(xml)?;
+    let told = |key: &str| model.get(key).map_or("", String::as_str);
+    let mut text = format!("{} (FMI {})", told("modelName"), told("fmiVersion"));
+    if !told("description").is_empty() {
+        let _ = write!(text, ": {}", told("description"));
+    }
+    text.push_str("\n\n");
+    let cell =
+        |variable: &Attributes, column: &str| variable.get(column).cloned().unwrap_or_default();
+    let head = COLUMNS.map(str::to_owned);
+    let rows = variables
+        .iter()
+        .map(|variable| COLUMNS.map(|column| cell(variable, column)));
+    let rows: Vec<_> = std::iter::once(head).chain(rows).collect();
+    let width = |i: usize| {
+        rows.iter()
+            .map(|row| row[i].chars().count())
+            .max()
+            .unwrap_or(0)
+    };
+    let widths: Vec<_> = (0..COLUMNS.len()).map(width).collect();
+    for row in &rows {
+        let cells = row.iter().zip(&widths).filter(|(_, width)| **width > 0);
+        let line: Vec<_> = cells
+            .map(|(cell, width)| format!("{cell:width$}"))
+            .collect();
+        let _ = writeln!(text, "{}", line.join("  ").trim_end());
+    }
+    Ok(text)
+}
+
+/// Attributes of the root, and of each variable; its type is among them.
+fn read(xml: &str) -> Result<(Attributes, Vec<Attributes>), quick_xml::Error> {
+    let mut reader = Reader::from_str(xml);
+    let (mut model, mut variables) = (Attributes::new(), Vec::<Attributes>::new());
+    // The elements that are open.
+    let mut path: Vec<String> = Vec::new();
+    loop {
+        let event = reader.read_event()?;
+        match &event {
+            Event::Start(element) | Event::Empty(element) => {
+                let name = String::from_utf8_lossy(element.name().as_ref()).into_owned();
+                let inside: Vec<_> = path.iter().map(String::as_str).collect();
+                match inside.as_slice() {
+                    [] => model = attributes(element)?,
+                    [_, "ModelVariables"] => {
+                        let mut variable = attributes(element)?;
+                        // FMI 3.0 names the element by the type.
+                        if name != "ScalarVariable" {
+                            variable.insert("type".to_owned(), name.clone());
+                        }
+                        variables.push(variable);
+                    }
+                    [_, "ModelVariables", outer] => {
+                        if let Some(variable) = variables.last_mut() {
+                            inner(variable, outer, &name, attributes(element)?);
+                        }
+                    }
+                    _ => {}
+                }
+                if matches!(event, Event::Start(_)) {
+                    path.push(name);
+                }
+            }
+            Event::End(_) => {
+                path.pop();
+            }
+            Event::Eof => return Ok((model, variables)),
+            _ => {}
+        }
+    }
+}
+
+/// What an element inside a variable says of it.
+fn inner(variable: &mut Attributes, outer: &str, name: &str, told: Attributes) {
+    match (outer, name) {
+        ("ScalarVariable", "Annotations") => {}
+        ("ScalarVariable", _) => {
+            variable.insert("type".to_owned(), name.to_owned());
+            for (key, value) in told {
+                variable.entry(key).or_insert(value);
+            }
+        }
+        (_, "Dimension") => {
+            let length = told.get("start").or(told.get("valueReference"));
+            let length = length.cloned().unwrap_or_default();
+            if let Some(name) = variable.get_mut("name") {
+                let _ = write!(name, "[{length}]");
+            }
+        }
+        (_, "Start") => {
+            let value = told.get("value").cloned().unwrap_or_default();
+            variable.insert("start".to_owned(), value);
+        }
+        _ => {}
+    }
+}
+
+fn attributes(element: &BytesStart<'_>) -> Result<Attributes, quick_xml::Error> {
+    let mut attributes = Attributes::new();
+    for attribute in element.attributes() {
+        let attribute = attribute?;
+        let key = String::from_utf8_lossy(attribute.key.as_ref()).into_owned();
+        attributes.insert(key, attribute.unescape_value()?.into_owned());
+    }
+    Ok(attributes)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn variables_of_fmi_2_have_the_attributes_of_their_type() {
+        let xml = r#"<fmiModelDescription fmiVersion="2.0" modelName="Plant" description="a &lt; b"><ModelVariables>
+            <ScalarVariable name="F" valueReference="0" description="force" causality="input" variability="continuous">
+            <Real unit="N" start="0.0" max="5"/></ScalarVariable>
+            <ScalarVariable name="n" valueReference="1" causality="output"><Integer/></ScalarVariable>
+            </ModelVariables><ModelStructure/></fmiModelDescription>"#;
+        assert_eq!(
+            table(xml).unwrap(),
+            "Plant (FMI 2.0): a < b\n\n\
+             name  type     causality  variability  unit  start  min  max  description\n\
+             F     Real     input      continuous   N     0.0         5    force\n\
+             n     Integer  output\n"
+        );
+    }
+
+    #[test]
+    fn variables_of_fmi_3_have_their_dimension_in_the_name() {
+        let xml = r#"<fmiModelDescription fmiVersion="3.0" modelName="Arm"><ModelVariables>
+            <Float64 name="q" valueReference="0" causality="input" start="0 0 0"><Dimension start="3"/></Float64>
+            <String name="s" valueReference="1" causality="parameter"><Start value="x"/></String>
+            </ModelVariables></fmiModelDescription>"#;
+        let table = table(xml).unwrap();
+        assert!(table.contains("q[3]  Float64  input"), "{table}");
+        assert!(
+            table
+                .lines()
+                .last()
+                .unwrap()
+                .contains("parameter               x"),
+            "{table}"
+        );
+    }
+}

@@ -1,0 +1,178 @@
+//! What a model's package says of it in its `Cargo.toml`: under `[package]`, and under
+//!
+//! ```toml
+//! [package.metadata.fmu]
+//! author = "Jane Doe"                         # without it the package's authors
+//! copyright = "Copyright 2026 Jane Doe"
+//! licenses = ["LICENSE"]                      # without it files of such names beside Cargo.toml, or in the workspace's folder
+//! icon = "icon.png"                           # shown on the block
+//! guide = "guide.html"                        # what the model does: paragraphs for the interface document
+//! picture = "signs.svg"                       # signs and frames, in the interface document
+//! resources = "resources"                     # a folder, which the model finds again at run time
+//! extra = "extra"                             # a folder, for layered standards
+//! ```
+
+use crate::linked;
+use crate::process::{Failure, Outcome, at};
+use cargo_metadata::Package;
+use serde::Deserialize;
+use std::path::Path;
+
+/// All of it, read.
+#[derive(Clone, Debug, Default)]
+pub struct Facts {
+    /// Version.
+    pub version: String,
+    /// Author.
+    pub author: String,
+    /// Copyright.
+    pub copyright: String,
+    /// Licence, as an SPDX expression.
+    pub license: String,
+    /// Names and contents of licence texts.
+    pub texts: Vec<(String, Vec<u8>)>,
+    /// A PNG.
+    pub icon: Option<Vec<u8>>,
+    /// Paragraphs of HTML.
+    pub guide: String,
+    /// An `<svg>` element.
+    pub picture: String,
+    /// Other files of the archive, by their path.
+    pub extra: Vec<(String, Vec<u8>)>,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+struct Table {
+    author: Option<String>,
+    copyright: Option<String>,
+    licenses: Option<Vec<String>>,
+    icon: Option<String>,
+    guide: Option<String>,
+    picture: Option<String>,
+    resources: Option<String>,
+    extra: Option<String>,
+}
+
+impl Facts {
+    /// Reads what the package says; `root` is its workspace's folder.
+    ///
+    /// # Errors
+    /// Names the key and what was expected.
+    pub fn of(package: &Package, root: &Path) -> Outcome<Self> {
+        let table = match &package.metadata["fmu"] {
+            serde_json::Value::Null => Table::default(),
+            told => Table::deserialize(told).map_err(|error| {
+                let manifest = &package.manifest_path;
+                Failure::Found(format!("{manifest}: [package.metadata.fmu]: {error}"))
+            })?,
+        };
+        let folder = package
+            .manifest_path
+            .parent()
+            .map_or(root, |folder| folder.as_std_path());
+        let bytes = |key: &str, path: &str| {
+            std::fs::read(folder.join(path)).map_err(|error| unread(package, key, path, &error))
+        };
+        let text = |key: &str, path: &Option<String>| match path {
+            None => Ok(String::new()),
+            Some(path) => std::fs::read_to_string(folder.join(path))
+                .map_err(|error| unread(package, key, path, &error)),
+        };
+        let icon = table.icon.as_deref().map(|path| {
+            bytes("icon", path).and_then(|icon| match icon.starts_with(b"\x89PNG\r\n\x1a\n") {
+                true => Ok(icon),
+                false => Err(wrong(package, "icon", path, "a PNG file")),
+            })
+        });
+        let picture = text("picture", &table.picture)?;
+        if let Some(path) = table
+            .picture
+            .as_deref()
+            .filter(|_| !picture.trim_start().starts_with("<svg"))
+        {
+            return Err(wrong(
+                package,
+                "picture",
+                path,
+                "a file that begins with <svg",
+            ));
+        }
+        let mut extra = Vec::new();
+        for (key, path) in [("resources", &table.resources), ("extra", &table.extra)] {
+            if let Some(path) = path {
+                below(&folder.join(path), key, &mut extra)
+                    .map_err(|error| unread(package, key, path, &error))?;
+            }
+        }
+        let texts = match &table.licenses {
+            Some(paths) => {
+                let named = |path: &String| {
+                    let name = Path::new(path).file_name().unwrap_or_default();
+                    Ok((
+                        name.to_string_lossy().into_owned(),
+                        bytes("licenses", path)?,
+                    ))
+                };
+                paths.iter().map(named).collect::<Outcome<_>>()?
+            }
+            None => found(package, folder, root)?,
+        };
+        Ok(Self {
+            version: package.version.to_string(),
+            author: table.author.unwrap_or_else(|| package.authors.join(", ")),
+            copyright: table.copyright.unwrap_or_default(),
+            license: package.license.clone().unwrap_or_default(),
+            texts,
+            icon: icon.transpose()?,
+            guide: text("guide", &table.guide)?,
+            picture,
+            extra,
+        })
+    }
+}
+
+/// Licence texts: the file that the package names, those beside its manifest, or those of its workspace.
+fn found(package: &Package, folder: &Path, root: &Path) -> Outcome<Vec<(String, Vec<u8>)>> {
+    if let Some(path) = package.license_file() {
+        let name = path.file_name().unwrap_or("LICENSE").to_owned();
+        let text = std::fs::read(&path).map_err(at(path.as_std_path()))?;
+        return Ok(vec![(name, text)]);
+    }
+    let texts = linked::texts(folder)?;
+    if texts.is_empty() {
+        linked::texts(root)
+    } else {
+        Ok(texts)
+    }
+}
+
+/// The files below a folder, by their paths in the archive.
+fn below(folder: &Path, prefix: &str, files: &mut Vec<(String, Vec<u8>)>) -> std::io::Result<()> {
+    for entry in std::fs::read_dir(folder)? {
+        let entry = entry?;
+        let name = format!("{prefix}/{}", entry.file_name().to_string_lossy());
+        if entry.path().is_dir() {
+            below(&entry.path(), &name, files)?;
+        } else {
+            files.push((name, std::fs::read(entry.path())?));
+        }
+    }
+    Ok(())
+}
+
+fn unread(package: &Package, key: &str, path: &str, error: &std::io::Error) -> Failure {
+    wrong(
+        package,
+        key,
+        path,
+        &format!("a path beside Cargo.toml ({error})"),
+    )
+}
+
+fn wrong(package: &Package, key: &str, path: &str, expected: &str) -> Failure {
+    let manifest = &package.manifest_path;
+    Failure::Found(format!(
+        "{manifest}: [package.metadata.fmu]: {key} = {path:?}: expected {expected}"
+    ))
+}

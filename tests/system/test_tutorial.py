@@ -1,0 +1,160 @@
+"""docs/tutorial.md, done word by word in a folder outside of this repository, with a space and an umlaut in its path.
+
+Not done: the blocks `console`, which clone, install from a network, or fetch compilers. In their place stand this clone and the
+program that `cargo xtask test` has built of it. A configuration of cargo lies in the folder above, as a stranger may have one:
+other flags, another target, panics that abort, a target folder elsewhere.
+"""
+
+import math
+import re
+import subprocess
+import zipfile
+from dataclasses import dataclass
+from pathlib import Path
+
+import fmpy
+import pytest
+
+from cargo_fmu import ROOT, cargo_fmu, environment
+
+TUTORIAL = (ROOT / "docs" / "tutorial.md").read_text(encoding="utf-8")
+
+#: Kind and text of each block, in order.
+BLOCKS = re.findall(r"^```(\w+)\n(.*?)^```$", TUTORIAL, re.MULTILINE | re.DOTALL)
+
+#: What a stranger's own configuration of cargo may say.
+CONFIGURATION = """
+[build]
+target = "thumbv7em-none-eabihf"
+rustflags = ["-Cpanic=abort"]
+[profile.release]
+panic = "abort"
+debug = true
+"""
+
+
+@dataclass(frozen=True)
+class Done:
+    """The package at the end, and what was printed on the way."""
+
+    package: Path
+    target: Path
+    printed: list[str]
+
+    @property
+    def fmu(self) -> Path:
+        """The archive."""
+        return self.target / "fmu" / "MyPlant.fmu"
+
+
+@pytest.fixture(scope="module")
+def done(tmp_path_factory: pytest.TempPathFactory) -> Done:
+    """Runs the tutorial from its first word to its last."""
+    folder = tmp_path_factory.mktemp("eigene Modelle für FMI")
+    target = tmp_path_factory.mktemp("target")
+    (folder / ".cargo").mkdir()
+    (folder / ".cargo" / "config.toml").write_text(CONFIGURATION, encoding="utf-8")
+    where, printed = folder, []
+    for kind, text in BLOCKS:
+        if kind == "sh":
+            # The folder in which one block ends is where the next one begins.
+            after = folder / "where"
+            script = f'set -euo pipefail\n{text}\npwd > "{after}"\n'
+            run = subprocess.run(
+                ["bash", "-c", script], cwd=where, env=environment(target), capture_output=True, encoding="utf-8", check=False
+            )
+            assert run.returncode == 0, f"{text}{run.stdout}{run.stderr}"
+            where = Path(after.read_text(encoding="utf-8").strip())
+            printed.append(run.stdout)
+        elif kind == "text":
+            assert printed[-1] == text
+        elif kind == "rust":
+            assert (where / "src" / "lib.rs").read_text(encoding="utf-8") == text
+        elif kind == "toml":
+            manifest = where / "Cargo.toml"
+            said = re.search(r"version `([\d.]+)` instead\s+of `([\d.]+)`", TUTORIAL)
+            assert said is not None
+            old = manifest.read_text(encoding="utf-8")
+            new = old.replace(f'version = "{said[2]}"', f'version = "{said[1]}"', 1)
+            manifest.write_text(f"{new}\n{text}", encoding="utf-8")
+        else:
+            assert kind == "console", kind
+    return Done(where, target, printed)
+
+
+def test_the_tutorial_runs_and_its_own_test_agrees_with_the_closed_form(done: Done) -> None:
+    assert done.printed[0].splitlines()[-1] == str(done.fmu)
+    assert done.printed[1] == "as the closed form says\n"
+    assert "No problems found" in done.printed[-1]
+
+
+def test_a_step_of_the_force_moves_the_mass_as_the_closed_form_says(done: Done) -> None:
+    m, d, k, force = 1.5, 0.9, 30.0, 2.0
+    run = fmpy.simulate_fmu(
+        str(done.fmu), stop_time=4.0, output_interval=0.01, start_values={"m": m, "d": d, "k": k, "force": force}
+    )
+    decay = d / (2 * m)
+    omega = math.sqrt(k / m - decay**2)
+    for t, x in zip(run["time"], run["x"], strict=True):
+        wave = math.cos(omega * t) + decay / omega * math.sin(omega * t)
+        # The method's error in substeps of 1 ms is far below.
+        assert x == pytest.approx(force / k * (1 - math.exp(-decay * t) * wave), abs=1e-10)
+
+
+def test_the_fmu_says_whose_it_is_and_nothing_of_this_project(done: Done) -> None:
+    description = fmpy.read_model_description(str(done.fmu))
+    assert (description.version, description.author, description.copyright, description.license) == (
+        "1.2.0",
+        "Jane Doe",
+        "Copyright 2026 Jane Doe",
+        None,
+    )
+    run = fmpy.instantiate_fmu(fmpy.extract(str(done.fmu)), description)
+    references = {variable.name: variable.valueReference for variable in description.modelVariables}
+    assert run.getString([references["version"], references["git_hash"]]) == [b"1.2.0", b"unknown"]
+    run.freeInstance()
+    with zipfile.ZipFile(done.fmu) as archive:
+        names = archive.namelist()
+        overview = archive.read("documentation/licenses/license.txt").decode()
+    assert overview.startswith("MyPlant 1.2.0\nCopyright 2026 Jane Doe\n\nThe package names no licence.\n")
+    # This SDK is linked in, under its own licence.
+    for sdk in ("fmu-export-", "fmu-declaration-"):
+        assert any(name.startswith(f"documentation/licenses/{sdk}") for name in names), sdk
+        assert re.search(rf"^{sdk}\S+ +MIT OR Apache-2.0$", overview, re.MULTILINE)
+
+
+def test_the_library_offers_the_standard_s_functions_alone_and_tells_of_no_folder(done: Done) -> None:
+    with zipfile.ZipFile(done.fmu) as archive:
+        (library,) = [name for name in archive.namelist() if name.startswith("binaries/")]
+        code = archive.read(library)
+    assert b"fmi2DoStep\0" in code
+    assert b"fmu_interface" not in code
+    for folder in (str(done.package), str(done.target), str(ROOT), str(Path.home()), ".cargo/registry"):
+        assert folder.encode() not in code, folder
+
+
+def test_a_path_of_the_machine_in_the_model_is_named_and_no_archive_written(done: Done) -> None:
+    source = done.package / "src" / "lib.rs"
+    kept = source.read_text(encoding="utf-8")
+    out = done.target / "refused"
+    words = 'Err(Refusal(format!("{} {step:?}", env!("CARGO_MANIFEST_DIR"))))'
+    try:
+        source.write_text(re.sub(r"(fn step\(.*\{\n)", rf"\1        if step.h > 1e6 {{ return {words}; }}\n", kept), "utf-8")
+        run = cargo_fmu("build", "--out", str(out), cwd=done.package, target=done.target)
+    finally:
+        source.write_text(kept, encoding="utf-8")
+    assert run.returncode == 1
+    assert re.search(rf"error: \S*libmy_plant\.\w+ carries the path {re.escape(str(done.package))}", run.stderr), run.stderr
+    assert not out.exists()
+
+
+def test_a_declaration_that_breaks_a_rule_is_named_by_its_row(done: Done) -> None:
+    source = done.package / "src" / "lib.rs"
+    kept = source.read_text(encoding="utf-8")
+    try:
+        source.write_text(kept.replace('from = ["x_0"]', 'from = ["x_1"]'), encoding="utf-8")
+        run = cargo_fmu("describe", cwd=done.package, target=done.target)
+    finally:
+        source.write_text(kept, encoding="utf-8")
+    assert run.returncode == 1
+    assert "error: library my_plant of my-plant: x: initially_from x_1: expected an output" in run.stderr
