@@ -90,8 +90,9 @@ pub fn bench() -> Outcome {
     stage("cargo bench", || {
         run(&mut cargo(["bench", "--locked", "--package", "abi"]))
     })?;
-    stage("exo benchmark", || {
-        run(&mut venv.command(["-m", "exo.benchmark"]))
+    stage("native", || native(Packages::Test))?;
+    stage("engines", || {
+        run(&mut venv.command(["benches/engines.py"]))
     })?;
     stage("arm benchmark", || {
         run(&mut venv.command(["tests/system/oracles/benchmark.py"]))

@@ -23,7 +23,7 @@ from numpy.typing import NDArray
 
 from exo import loop, profile
 from exo.errors import ExoError, FmuError, ScenarioError
-from exo.fmu import Archive, Instance, Kind, choices
+from exo.fmu import DTYPES, Archive, Instance, Kind, References, choices
 from exo.loop import Engine, Part, Wire
 from exo.pace import Pace
 from exo.plan import Plan
@@ -103,6 +103,11 @@ class Coupled:
         self._used = False
         self._next = 0
         self._parameters: dict[str, float | int | bool] = {}
+        #: What stays from run to run: how parameters are read, which of them are choices, what can be recorded.
+        self._read: list[tuple[Instance, References, list[str], NDArray[Any]]] = []
+        self._items: dict[str, dict[int, str]] = {}
+        self._units: dict[bool, dict[str, str]] = {}
+        self._wired: tuple[Any, ...] | None = None
         self._wall_time = self._cpu_time = 0.0
 
     def __enter__(self) -> Self:
@@ -112,6 +117,14 @@ class Coupled:
                 outputs = [one for one in archive.names("output") if self._is_kept(f"{name}.{one}")]
                 instance = stack.enter_context(Instance(archive, name))
                 self._parts[name] = Part(instance, inputs=inputs, outputs=outputs, steps=self._plan.steps)
+                for kind, refs in instance.references(archive.names("parameter")).items():
+                    if refs:
+                        buffer = np.zeros(refs.count, dtype=DTYPES[kind])
+                        self._read.append((instance, refs, [f"{name}.{one}" for one in refs.names], buffer))
+                for one in archive.names("parameter"):
+                    items = choices(archive.variable(one))
+                    if items:
+                        self._items[f"{name}.{one}"] = {number: item for item, number in items.items()}
             self._stack = stack.pop_all()
         return self
 
@@ -133,13 +146,17 @@ class Coupled:
             for part in self._parts.values():
                 part.resize(plan.steps)
         self._plan, self._used, self._next = plan, True, 0
-        self._wires = _wire(plan, self._parts, self.time)
+        # Profiles stay in the buffers, wires lead to them.
+        wired = (plan.steps, plan.step, plan.profiles, plan.coupling)
+        if wired != self._wired:
+            self._wires = _wire(plan, self._parts, self.time)
+            self._wired = wired
         _initialize(plan, self._parts, self._wires)
-        self._parameters = {
-            f"{name}.{key}": value
-            for name, part in self._parts.items()
-            for key, value in part.instance.values(part.instance.archive.names("parameter")).items()
-        }
+        self._parameters = {}
+        for instance, refs, names, buffer in self._read:
+            instance.read(refs, buffer)
+            values = buffer.astype(bool) if refs.kind == "Boolean" else buffer
+            self._parameters.update(zip(names, values.tolist(), strict=True))
         self._wall_time = self._cpu_time = 0.0
 
     @property
@@ -196,15 +213,23 @@ class Coupled:
 
     def recording(self, *, lazily: bool = False) -> Recording:
         """What has been recorded. `lazily`: columns are taken when they are asked for, before the next run."""
-        names = self._names(everything=lazily)
-        columns: Mapping[str, NDArray[Any]] = Columns(self._parts, dict.fromkeys(names))
-        units = {key: _unit(self._archives[key.split(".", 1)[0]], key.split(".", 1)[1]) for key in names}
+        if lazily not in self._units:
+            self._units[lazily] = {
+                key: _unit(self._archives[key.split(".", 1)[0]], key.split(".", 1)[1])
+                for key in self._names(everything=lazily)
+            }
+        units = self._units[lazily]
+        columns: Mapping[str, NDArray[Any]] = Columns(self._parts, units)
         return Recording(
             time=self.time,
             columns=columns if lazily else dict(columns),
             units=units,
             parameters=self._parameters,
-            choices=_choices(self._archives, self._parameters),
+            choices={
+                key: items[int(self._parameters[key])]
+                for key, items in self._items.items()
+                if self._parameters[key] in items
+            },
             profiles=self._plan.profiles,
             wall_time=self._wall_time,
             cpu_time=self._cpu_time,
@@ -258,10 +283,8 @@ def _of_kind(values: NDArray[np.float64], kind: Kind) -> NDArray[Any]:
 
 def _initialize(plan: Plan, parts: dict[str, Part], wires: list[Wire]) -> None:
     for name, part in parts.items():
-        for key, value in plan.parameters.items():
-            component, parameter = key.split(".", 1)
-            if component == name:
-                part.instance.set_start(parameter, value)
+        own = {key.split(".", 1)[1]: value for key, value in plan.parameters.items() if key.split(".", 1)[0] == name}
+        part.instance.set_starts(own)
         part.instance.setup_experiment(start_time=0.0, stop_time=plan.duration)
         part.instance.enter_initialization_mode()
     # Outputs after initialization depend on parameters and, through one more FMU at most, on each other.
@@ -275,18 +298,6 @@ def _initialize(plan: Plan, parts: dict[str, Part], wires: list[Wire]) -> None:
     for part in parts.values():
         part.instance.exit_initialization_mode()
         part.read_row(0)
-
-
-def _choices(archives: Mapping[str, Archive], parameters: Mapping[str, float | int | bool]) -> dict[str, str]:
-    """Names of the items that the enumeration parameters have."""
-    found = {}
-    for key, value in parameters.items():
-        component, name = key.split(".", 1)
-        items = choices(archives[component].variable(name))
-        for item, number in items.items():
-            if number == value:
-                found[key] = item
-    return found
 
 
 def _unit(archive: Archive, name: str) -> str:

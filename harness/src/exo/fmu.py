@@ -7,6 +7,7 @@ NumPy buffers, because fmpy's convenience calls cost more than the models.
 import os
 import re
 from collections import deque
+from collections.abc import Mapping
 from contextlib import ExitStack
 from ctypes import byref, c_char_p, c_double, c_int, c_size_t, c_void_p
 from itertools import count
@@ -68,6 +69,7 @@ class Archive:
         self.description: Any = _description(path)
         self.variables: dict[str, Any] = {v.name: v for v in self.description.modelVariables}
         self._extraction = Extraction(path)
+        self._references: dict[tuple[tuple[str, ...], Kind], References] = {}
 
     def __enter__(self) -> Self:
         self._extraction.__enter__()
@@ -99,6 +101,12 @@ class Archive:
         except KeyError:
             known = close_matches(name, self.variables)
             raise FmuError(f"{self.path.name}: no variable {name}{known}") from None
+
+    def references(self, names: tuple[str, ...], kind: Kind) -> "References":
+        """Value references of these variables, made once."""
+        if (names, kind) not in self._references:
+            self._references[names, kind] = References(self, [*names], kind)
+        return self._references[names, kind]
 
     def names(self, *causalities: str) -> list[str]:
         """Names of all variables with one of these causalities, in the order of the description."""
@@ -329,6 +337,15 @@ class Instance:
         """Sets a parameter or an input by name; enumerations by item name or number."""
         kind, number = self.archive.start_value(name, value)
         self.write(References(self.archive, [name], kind), np.array([number], dtype=DTYPES[kind]))
+
+    def set_starts(self, values: Mapping[str, bool | int | float | str]) -> None:
+        """The same of many, those of one kind in one call."""
+        kinds: dict[Kind, dict[str, float | int]] = {}
+        for name, value in values.items():
+            kind, number = self.archive.start_value(name, value)
+            kinds.setdefault(kind, {})[name] = number
+        for kind, numbers in kinds.items():
+            self.write(self.archive.references(tuple(numbers), kind), np.array([*numbers.values()], dtype=DTYPES[kind]))
 
     def write(self, references: References, values: NDArray[Any]) -> None:
         """Sets all variables of `references` from a contiguous array of the kind's type."""
