@@ -46,7 +46,7 @@ from scipy.stats import norm, qmc
 
 from exo import scenario as scenarios
 from exo.errors import ExoError, close_matches
-from exo.scenario import Data, Identifier, Line, Positive, QualifiedParameters, Scenario, Value
+from exo.scenario import Data, Identifier, Line, Positive, Scenario, Value
 
 #: Runs of one study: their table is in memory.
 MAX_RUNS = 10_000_000
@@ -170,7 +170,7 @@ class Study(Data):
     sampling: Sampling = Sampling()
     axes: Annotated[dict[str, Axis], Field(min_length=1)]
     #: What every run sets besides.
-    parameters: QualifiedParameters = Field(default={})
+    parameters: dict[str, Value] = Field(default={})
     figures: tuple[Figure, ...] = ()
 
     @property
