@@ -5,6 +5,7 @@ Symbols are the paper's. The position q, the nominal q_n, e = q_n − q; f_h is 
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -152,15 +153,21 @@ def robot(*, loop: Loop) -> tuple[Array, Array, Array]:
     In n substeps as the plants take them, backward Euler with the torque at the end of each; a substep of 0 stands for
     the exact solution (n → ∞).
     """
-    M, b, T, lag = loop.M, loop.b, loop.T, 2.0 * np.pi * loop.drive_cutoff
-    if loop.substep > 0.0:
-        n = int(np.ceil(T / loop.substep - 1e-6))
+    step = _robot(M=loop.M, b=loop.b, T=loop.T, substep=loop.substep, lag=2.0 * np.pi * loop.drive_cutoff)
+    return step[:3, :3], step[:3, 3], step[:3, 4]
+
+
+@lru_cache(maxsize=1024)  # a search for a gain asks for the same robot again and again
+def _robot(*, M: float, b: float, T: float, substep: float, lag: float) -> Array:
+    """The map of (q, dq, τ, u, f), for the `lag` in rad/s."""
+    if substep > 0.0:
+        n = int(np.ceil(T / substep - 1e-6))
         dt = T / n
         keep = np.exp(-lag * dt) if lag else 0.0
         q, v, tau, u, f = np.eye(5)
         tau_end = keep * tau + (1.0 - keep) * u
         v_end = (M * v + dt * (tau_end + f)) / (M + dt * b)
-        step = np.linalg.matrix_power(np.array([q + dt * v_end, v_end, tau_end, u, f]), n)
+        step: Array = np.linalg.matrix_power(np.array([q + dt * v_end, v_end, tau_end, u, f]), n)
     else:
         flow = np.zeros((5, 5))
         flow[0, 1] = T
@@ -168,7 +175,8 @@ def robot(*, loop: Loop) -> tuple[Array, Array, Array]:
         flow[2] = np.array([0.0, 0.0, -lag, lag, 0.0]) * T
         step = expm(flow)
         step[:, 0] = np.eye(5)[0]  # nothing depends on the place, not by rounding either
-    return step[:3, :3], step[:3, 3], step[:3, 4]
+    step.setflags(write=False)
+    return step
 
 
 def opened(*, loop: Loop) -> Opened:
