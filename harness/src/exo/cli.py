@@ -5,7 +5,6 @@ import re
 from collections import Counter
 from collections.abc import Callable, Iterable
 from contextlib import ExitStack
-from dataclasses import replace
 from math import isfinite
 from pathlib import Path
 from typing import Annotated
@@ -411,23 +410,15 @@ def tune(
 ) -> None:
     """Prints which gains keep the sampled loop stable, with margins; exit code 1 when the given ones do not.
 
-    Says also what encoder and dry friction do. With --scenario everything that is not given is read from the FMUs' start
-    values and the scenario's.
+    Says also what encoder and dry friction do. With --scenario everything that is not given is read from the FMUs'
+    start values and the scenario's.
     """
     with sentences():
-        options = {
-            **{
-                "T": T,
-                "M_min": M_min,
-                "M_max": M_max,
-                "delay": delay,
-                "k_h": k_h,
-                "b_h": b_h,
-                "hand_delay": hand_delay,
-            },
-            **{"substep": substep, "dq_cutoff": dq_cutoff, "f_cutoff": f_cutoff, "drive_cutoff": drive_cutoff},
-            **{"resolution": resolution, "K": K, "K_P": K_P, "M_n": M_n, "D_n": D_n, "alpha": alpha},
-        }
+        machine_options = {"T": T, "M_min": M_min, "M_max": M_max, "delay": delay, "substep": substep}
+        hand_options = {"k_h": k_h, "b_h": b_h, "hand_delay": hand_delay}
+        lag_options = {"dq_cutoff": dq_cutoff, "f_cutoff": f_cutoff, "drive_cutoff": drive_cutoff}
+        gain_options = {"K": K, "K_P": K_P, "M_n": M_n, "D_n": D_n, "alpha": alpha}
+        options = machine_options | hand_options | lag_options | gain_options | {"resolution": resolution}
         found = None
         if name is not None:
             found = reading.read(

@@ -19,9 +19,9 @@ class Loop:
     """The unlimited loop of law 2 (`passive`) and a free mass without friction.
 
     M, M_n in kg; D_n, K, alpha in N·s/m; K_P in 1/s; T and substep in s. Of `opened` and what is built on it, also: b,
-    friction of the robot that is proportional to its speed (N·s/m; negative where dry friction falls with speed), and the
-    corner frequencies (Hz, 0: none) of the low passes on the sensed velocity, on the force that the law sees, and of the
-    drive's torque.
+    friction of the robot that is proportional to its speed (N·s/m; negative where dry friction falls with speed), and
+    the corner frequencies (Hz, 0: none) of the low passes on the sensed velocity, on the force that the law sees, and
+    of the drive's torque.
     """
 
     M: float
@@ -146,7 +146,8 @@ def weight(*, cutoff: float, T: float) -> float:
 
 
 def robot(*, loop: Loop) -> tuple[Array, Array, Array]:
-    """(q, dq, τ) over one tick: its map (3, 3), what the force asked of the drive adds (3), and a force on the mass (3).
+    """(q, dq, τ) over one tick: its map (3, 3), what the force asked of the drive adds (3), and a force on the mass
+    (3).
 
         M ddq = τ + f − b dq,  dτ/dt = 2π f_d (u − τ); without a lag τ = u
 

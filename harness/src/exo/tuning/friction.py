@@ -54,12 +54,12 @@ class Friction:
     terms: tuple[Stribeck, ...]
 
     @property
-    def F_c(self) -> float:
+    def F_c(self) -> float:  # noqa: N802, the paper's symbol
         """What holds at speed, without the part that grows with it (N)."""
         return sum(term.F_c for term in self.terms)
 
     @property
-    def F_s(self) -> float:
+    def F_s(self) -> float:  # noqa: N802, the paper's symbol
         """What holds at rest (N)."""
         return sum(term.F_s for term in self.terms)
 

@@ -162,6 +162,12 @@ def guide(
     def holds(changed: Gains) -> bool:
         return region.stable_at_all(machine=machine, gains=changed, k_h_factor=MARGIN)
 
+    slides = []
+    if friction is not None:
+        slides = [
+            sliding(machine=machine, gains=gains, friction=friction, M=M, speed=speed)
+            for M in sorted({machine.M_min, machine.M_max})
+        ]
     return Guide(
         machine=machine,
         gains=gains,
@@ -177,8 +183,5 @@ def guide(
         gain_warning=warning(machine=machine, gains=gains),
         friction=friction,
         quantization=quantization(machine=machine, gains=gains, F_c=friction.F_c if friction else 0.0),
-        sliding=[
-            sliding(machine=machine, gains=gains, friction=friction, M=M, speed=speed)
-            for M in sorted({machine.M_min, machine.M_max} if friction else ())
-        ],
+        sliding=slides,
     )

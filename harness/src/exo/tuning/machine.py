@@ -42,9 +42,10 @@ class Machine(Checked):
     """A robot along one axis, and the hand on it.
 
     T in s; delay of the force in samples; effective masses M_min ≤ M_max in kg; k_h in N/m, b_h in N·s/m, hand_delay in
-    s; substep of the simulated plant in s, 0 for the exact mass. Corner frequencies in Hz, 0 for none: of the low passes
-    on the velocity and on the force that the law sees, and of the drive's lag. resolution: one count of the encoder
-    along the axis in m, 0 for an ideal one. slope: friction of the robot over its speed in N·s/m, of either sign.
+    s; substep of the simulated plant in s, 0 for the exact mass. Corner frequencies in Hz, 0 for none: of the low
+    passes on the velocity and on the force that the law sees, and of the drive's lag. resolution: one count of the
+    encoder along the axis in m, 0 for an ideal one. slope: friction of the robot over its speed in N·s/m, of either
+    sign.
     """
 
     T: float

@@ -49,13 +49,13 @@ def plus(a: Array, b: Array) -> Array:
 
 @dataclass(frozen=True, kw_only=True)
 class Parts:
-    """The loop as polynomials in w = z − 1, lowest power first. Without low passes, lag and friction all coefficients are
-    sums of what is not negative.
+    """The loop as polynomials in w = z − 1, lowest power first. Without low passes, lag and friction all coefficients
+    are sums of what is not negative.
 
-    S: the nominal. G_1: K_P and c of what is sensed, G_2: of the nominal. I_1: what the nominal resists with. seen, felt:
-    what the low passes on velocity and force divide by; share: what the one on force multiplies with. Of the robot:
-    poles, and w times that is what all of its answers divide by; q_u, v_u: place over T²/M and velocity over T/M for a
-    force asked of the drive; q_f, v_f: for a force on the mass; minor: v_f q_u − v_u q_f over w times `poles`.
+    S: the nominal. G_1: K_P and c of what is sensed, G_2: of the nominal. I_1: what the nominal resists with. seen,
+    felt: what the low passes on velocity and force divide by; share: what the one on force multiplies with. Of the
+    robot: poles, and w times that is what all of its answers divide by; q_u, v_u: place over T²/M and velocity over T/M
+    for a force asked of the drive; q_f, v_f: for a force on the mass; minor: v_f q_u − v_u q_f over w times `poles`.
     """
 
     S: Array
@@ -94,7 +94,8 @@ class Parts:
         )
 
     def hand(self, *, hand: Hand, T: float) -> tuple[Array, Array]:
-        """M times the hand's force for a force asked of the drive, and for one on the mass, both over w times `poles`."""
+        """M times the hand's force for a force asked of the drive, and for one on the mass, both over w times
+        `poles`."""
         return tuple(  # type: ignore[return-value]
             plus(hand.k_h * T**2 * q, hand.b_h * T * v) for q, v in ((self.q_u, self.v_u), (self.q_f, self.v_f))
         )
@@ -106,23 +107,23 @@ def _robot(loop: Loop) -> dict[str, Array]:
     if not (loop.b or loop.drive_cutoff):
         n = np.ceil(T / loop.substep - 1e-6) if loop.substep > 0.0 else np.inf
         travel, faster = np.array([1.0, 0.5 * (1.0 + 1.0 / n)]), np.array([0.0, 1.0])
-        return dict(poles=faster, q_u=travel, v_u=faster, q_f=travel, v_f=faster, minor=np.zeros(1))
+        return {"poles": faster, "q_u": travel, "v_u": faster, "q_f": travel, "v_f": faster, "minor": np.zeros(1)}
     scale = np.array([M / T**2, M / T, 1.0])
     own, asked, pushed = theory.robot(loop=loop)
     own, asked, pushed = own * scale[:, None] / scale, asked * scale, pushed * scale
     beta, kappa = np.array([1.0 - own[1, 1], 1.0]), np.array([1.0 - own[2, 2], 1.0])
     if not loop.drive_cutoff:  # the same force, whoever exerts it
         q, v = plus(own[0, 1] * pushed[1:2], pushed[0] * beta), np.array([0.0, pushed[1]])
-        return dict(poles=beta, q_u=q, v_u=v, q_f=q, v_f=v, minor=np.zeros(1))
+        return {"poles": beta, "q_u": q, "v_u": v, "q_f": q, "v_f": v, "minor": np.zeros(1)}
     faster, further = (plus(own[i, 2] * asked[2:], asked[i] * kappa) for i in (1, 0))
-    return dict(
-        poles=times(beta, kappa),
-        q_u=plus(own[0, 1] * faster, times(beta, further)),
-        v_u=times([0.0, 1.0], faster),
-        q_f=times(plus(own[0, 1] * pushed[1:2], pushed[0] * beta), kappa),
-        v_f=times([0.0, pushed[1]], kappa),
-        minor=plus(pushed[1] * further, -pushed[0] * faster),
-    )
+    return {
+        "poles": times(beta, kappa),
+        "q_u": plus(own[0, 1] * faster, times(beta, further)),
+        "v_u": times([0.0, 1.0], faster),
+        "q_f": times(plus(own[0, 1] * pushed[1:2], pushed[0] * beta), kappa),
+        "v_f": times([0.0, pushed[1]], kappa),
+        "minor": plus(pushed[1] * further, -pushed[0] * faster),
+    }
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -162,8 +163,8 @@ class Late:
     def growing(self, *, size: float) -> int:
         """How many roots have |z| > `size`.
 
-        On the circle z = size (1 + i x)/(1 − i x), x from 0 to ∞ being its upper half, D and R become polynomials D̃ and
-        R̃ of degree n in u = i x over (1 − u)^n, and the roots outside number n/2 − Δarg(D̃ + z⁻ᵐ R̃)/π.
+        On the circle z = size (1 + i x)/(1 − i x), x from 0 to ∞ being its upper half, D and R become polynomials D̃
+        and R̃ of degree n in u = i x over (1 − u)^n, and the roots outside number n/2 − Δarg(D̃ + z⁻ᵐ R̃)/π.
         """
         D, R = (on_the_circle(p, size=size) for p in (self.D, self.R * size**-self.m))
         places = np.array([0.0, *crossings(D, R), np.inf])

@@ -5,15 +5,15 @@ velocity by up to δ/T. Error and nominal are linear: the force that the errors 
 
     τ_a − τ_a(ideal) = Σ g_k ε_(n−k),  |ε| ≤ δ/2    ⇒    |τ_a − τ_a(ideal)| ≤ δ/2 Σ |g_k|
 
-and no bound is less, since ε may have the sign of every g_k. Dry friction takes F_c for each metre. So no error can keep
-the robot moving while
+and no bound is less, since ε may have the sign of every g_k. Dry friction takes F_c for each metre. So no error can
+keep the robot moving while
 
     δ/2 Σ |g_k| ≤ F_c
 
-For a bare spring K_w (g_0 = K_w) this is K_w ≤ 2 F_c/δ: Abbott and Okamura, Effects of position quantization and sampling
-rate on virtual-wall passivity, IEEE TRO 21 (2005), and Diolaiti et al., Stability of haptic rendering, IEEE TRO 22 (2006).
-Here the damper counts, too, and for more: K/T beside K K_P. Where it does not hold, a limit cycle may be: sufficient,
-and not necessary.
+For a bare spring K_w (g_0 = K_w) this is K_w ≤ 2 F_c/δ: Abbott and Okamura, Effects of position quantization and
+sampling rate on virtual-wall passivity, IEEE TRO 21 (2005), and Diolaiti et al., Stability of haptic rendering, IEEE
+TRO 22 (2006). Here the damper counts, too, and for more: K/T beside K K_P. Where it does not hold, a limit cycle may
+be: sufficient, and not necessary.
 """
 
 import math
@@ -35,10 +35,10 @@ LOWEST = 1e-4
 class Quantization:
     """One count of `resolution` δ (m).
 
-    velocity: what a count adds to the velocity in one tick, behind the low pass if there is one (m/s). step: the largest
-    force that one count makes (N). force: the largest that readings within δ/2 make (N). share: force/F_c, inf without
-    dry friction. Each alone makes the share 1, None where it alone does not do: resolution_needed (m), K_needed (N·s/m),
-    cutoff_needed of the velocity's low pass (Hz).
+    velocity: what a count adds to the velocity in one tick, behind the low pass if there is one (m/s). step: the
+    largest force that one count makes (N). force: the largest that readings within δ/2 make (N). share: force/F_c, inf
+    without dry friction. Each alone makes the share 1, None where it alone does not do: resolution_needed (m), K_needed
+    (N·s/m), cutoff_needed of the velocity's low pass (Hz).
     """
 
     resolution: float
@@ -103,8 +103,8 @@ def largest_force(*, machine: Machine, gains: Gains) -> float:
 
 
 def cutoff_needed(*, machine: Machine, gains: Gains, F_c: float) -> float | None:
-    """The highest corner frequency (Hz) of the velocity's low pass with which friction swallows the counts; None if none
-    down to `LOWEST` of the sample rate does, or if they are swallowed as it is."""
+    """The highest corner frequency (Hz) of the velocity's low pass with which friction swallows the counts; None if
+    none down to `LOWEST` of the sample rate does, or if they are swallowed as it is."""
 
     def swallowed(cutoff: float) -> bool:
         return largest_force(machine=replace(machine, dq_cutoff=cutoff), gains=gains) <= F_c

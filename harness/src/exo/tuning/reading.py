@@ -115,7 +115,8 @@ def _arm(run: Recording, *, controller: str, plant: str, axis: int) -> tuple[dic
 
 
 def count_of(run: Recording, *, plant: str, joint: int) -> float:
-    """One count of the joint's encoder (rad): 2π/(counts · gear) on the motor's side, 2π/2^bits on the joint's; 0: ideal."""
+    """One count of the joint's encoder (rad): 2π/(counts · gear) on the motor's side, 2π/2^bits on the joint's; 0:
+    ideal."""
     match run.choice(f"{plant}.encoder.kind"):
         case "motor":
             return 2.0 * math.pi / (run.parameter(f"{plant}.encoder.counts") * run.parameter(f"{plant}.gear[{joint}]"))

@@ -66,8 +66,8 @@ def warnings(guide: Guide) -> list[str]:
         ]
         has = f"dry friction takes {number(guide.friction.F_c)} N" if guide.friction else "there is no dry friction"
         found.append(
-            f"encoder: readings within half a count make up to {number(count.force)} N, and {has}: a limit cycle may be."
-            + (f" Each alone mends it: {', '.join(mends)}." if mends else "")
+            f"encoder: readings within half a count make up to {number(count.force)} N, and {has}: "
+            "a limit cycle may be." + (f" Each alone mends it: {', '.join(mends)}." if mends else "")
         )
     if sliding and sliding.slips:
         spans = " and ".join(between(speeds) for speeds in sliding.slips)

@@ -2,11 +2,11 @@
 
 Three rules, each on the loop of `exo.theory` with the damper that friction is worth to a motion at a mean speed v:
 
-* steady motion grows into a swing where the loop with friction's slope dF/dv is unstable (Armstrong-Hélouvry, Dupont and
-  Canudas de Wit, Automatica 30, 1994, section 5: friction that falls with speed is a negative damper);
+* steady motion grows into a swing where the loop with friction's slope dF/dv is unstable (Armstrong-Hélouvry, Dupont
+  and Canudas de Wit, Automatica 30, 1994, section 5: friction that falls with speed is a negative damper);
 * a swing that is there can last where the loop is unstable with what friction is worth to a swing of some size, its
-  describing function with a bias (Olsson and Åström, Friction generated limit cycles, IEEE TCST 9, 2001): then it depends
-  on the start, a jolt or rest, what becomes of the motion;
+  describing function with a bias (Olsson and Åström, Friction generated limit cycles, IEEE TCST 9, 2001): then it
+  depends on the start, a jolt or rest, what becomes of the motion;
 * where neither is, everything dies out, and the motion is smooth.
 
 A describing function is an approximation: it takes the swing as a sine, and rest as a passing of zero.
@@ -38,11 +38,11 @@ FURTHER = 100.0
 class Sliding:
     """What dry friction does to a motion along the axis, at the mass M (kg).
 
-    F_s, F_c in N; least_slope of friction in N·s/m; least_held: the slope above which the loop holds it, −inf if it holds
-    all that this friction has. `slips`: the speeds (m/s) at which steady motion is unstable. `smooth_above`: from this speed on (m/s)
-    no swing lasts, 0 if none does at any speed, inf if one does at every speed. `K_smooth`: the K (N·s/m) from which on no speed slips by itself, None
-    if K alone does not do. `speed` (m/s) is one that is asked about, and `verdict` what it does: "slips", "after a
-    jolt", "smooth".
+    F_s, F_c in N; least_slope of friction in N·s/m; least_held: the slope above which the loop holds it, −inf if it
+    holds all that this friction has. slips: the speeds (m/s) at which steady motion is unstable. smooth_above: from
+    this speed on (m/s) no swing lasts, 0 if none does at any speed, inf if one does at every speed. K_smooth: the K
+    (N·s/m) from which on no speed slips by itself, None if K alone does not do. speed (m/s) is one that is asked about,
+    and verdict what it does: "slips", "after a jolt", "smooth".
     """
 
     M: float
