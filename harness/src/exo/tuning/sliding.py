@@ -64,7 +64,7 @@ class Sliding:
 
 def sliding(*, machine: Machine, gains: Gains, friction: Friction, M: float, speed: float | None = None) -> Sliding:
     """Judges the motion at every speed, and at `speed` (m/s)."""
-    speeds = sorted({*map(float, SPEEDS), *([speed] if speed else [])})
+    speeds = [float(v) for v in SPEEDS]
     spans = {v: friction.span(v) for v in speeds}
     unstable = unstable_dampers(
         machine=machine,
@@ -81,9 +81,6 @@ def sliding(*, machine: Machine, gains: Gains, friction: Friction, M: float, spe
         low, high = friction.span(v)
         return any(dampers.low <= high and low <= dampers.high for dampers in unstable)
 
-    verdict = None
-    if speed:
-        verdict = "slips" if unsteady(speed) else "after a jolt" if lasting(speed) else "smooth"
     lasts = ranges(speeds, lasting)
     negative = [dampers for dampers in unstable if dampers.low < 0.0]
     return Sliding(
@@ -96,8 +93,17 @@ def sliding(*, machine: Machine, gains: Gains, friction: Friction, M: float, spe
         smooth_above=lasts[-1].high if lasts else 0.0,
         K_smooth=smooth_gain(machine=machine, gains=gains, friction=friction, M=M),
         speed=speed,
-        verdict=verdict,
+        verdict=verdict(machine=machine, gains=gains, friction=friction, M=M, speed=speed) if speed else None,
     )
+
+
+def verdict(*, machine: Machine, gains: Gains, friction: Friction, M: float, speed: float) -> str:
+    """What a motion at `speed` (m/s) does at the mass M (kg): "slips", "after a jolt" or "smooth"."""
+    if not holds(machine=machine, gains=gains, M=M, b=friction.slope(speed)):
+        return "slips"
+    least, most = friction.span(speed)
+    lasts = unstable_dampers(machine=machine, gains=gains, M=M, least=least, most=most)
+    return "after a jolt" if lasts else "smooth"
 
 
 def holds(*, machine: Machine, gains: Gains, M: float, b: float) -> bool:
@@ -107,7 +113,8 @@ def holds(*, machine: Machine, gains: Gains, M: float, b: float) -> bool:
 
 def unstable_dampers(*, machine: Machine, gains: Gains, M: float, least: float, most: float) -> list[Interval]:
     """The dampers on the robot between `least` and `most` (N·s/m) with which the loop at M (kg) is unstable."""
-    b = [*(-geometric(-least))[::-1], 0.0, *geometric(most)]
+    between = [x for x in (*(-geometric(-least))[::-1], 0.0, *geometric(most)) if least < x < most]
+    b = [least, *map(float, between), most]
     flags = [not holds(machine=machine, gains=gains, M=M, b=x) for x in b]
     found: list[list[float]] = []
     for i, unstable in enumerate(flags):
@@ -155,7 +162,7 @@ def ranges(speeds: list[float], applies: Callable[[float], bool]) -> list[Interv
 def smooth_gain(*, machine: Machine, gains: Gains, friction: Friction, M: float) -> float | None:
     """The smallest K (N·s/m) from which on the loop at M (kg) holds every slope that friction has, the other gains as
     given; None if none does up to what sampling allows."""
-    slopes = sorted({friction.least_slope, 0.5 * friction.least_slope, min(0.0, friction.least_slope), friction.b})
+    slopes = [float(b) for b in np.linspace(friction.least_slope, friction.b, 4)]
 
     def steady(K: float) -> bool:
         return all(holds(machine=machine, gains=replace(gains, K=K), M=M, b=b) for b in slopes)
