@@ -134,27 +134,27 @@ def test_the_delay_margin_with_lags_is_where_later_forces_begin_to_grow() -> Non
 
 
 @pytest.mark.parametrize(
-    ("lags", "least"),
+    "lags",
     [
-        ({"controller.dp_cutoff": 5.0}, 0.1),
-        ({"controller.ft.cutoff": 10.0}, 0.1),
-        ({"plant.drive.cutoff": 20.0}, 0.1),
-        ({"controller.dp_cutoff": 20.0, "controller.ft.cutoff": 20.0, "plant.drive.cutoff": 20.0}, 0.1),
+        {"controller.dp_cutoff": 5.0},
+        {"controller.ft.cutoff": 5.0},
+        {"plant.drive.cutoff": 20.0},
+        {"controller.dp_cutoff": 20.0, "controller.ft.cutoff": 20.0, "plant.drive.cutoff": 20.0},
     ],
 )
 def test_the_fmus_swing_grows_as_the_loop_with_its_lags_does(
-    lags: dict[str, float], least: float, archives: Mapping[str, Archive]
+    lags: dict[str, float], archives: Mapping[str, Archive]
 ) -> None:
     # The paper's gains on the arm without friction and gravity, in a hand of 1000 N/m: the swing grows over 1 to 3 s.
     data = scenarios.load("arm_presets")
     (case,) = [one for one in data.cases if one.id == "paper_ideal"]
-    whole = plan(scenario=data, case=case, overrides=lags)
+    # A push so small that the swing stays within a millimetre: the arm's axes are coupled by its motion, too.
+    whole = plan(scenario=data, case=case, overrides={**lags, "operator.segment[1].amplitude": 1e-6})
     run = simulate(plan=replace(whole, duration=3.0), archives=archives)
     found = growth_rate(run, column="plant.p[1]", after=1.0, before=3.0)
     paper = Loop(M=99.93, M_n=5.0, D_n=20.0, K=1000.0, K_P=20.0, alpha=1.0, T=0.001, substep=1e-4)
     cutoffs = {"dq_cutoff": "controller.dp_cutoff", "f_cutoff": "controller.ft.cutoff", "drive_cutoff": "plant.drive.cutoff"}
     lagged = replace(paper, **{name: lags.get(key, 0.0) for name, key in cutoffs.items()})
     expected = theory.growth_rate(loop=lagged, hand=Hand(k_h=1000.0))
-    # As in arm_presets without lags: the axes are coupled by 1.4 kg of 100 kg, which the closed form leaves out.
-    assert found == pytest.approx(expected, abs=0.01)
-    assert abs(expected - theory.growth_rate(loop=paper, hand=Hand(k_h=1000.0))) > least
+    assert found == pytest.approx(expected, abs=1e-3)  # the axes are coupled by 1.4 kg of 100 kg, which is left out
+    assert abs(expected - theory.growth_rate(loop=paper, hand=Hand(k_h=1000.0))) > 0.1
