@@ -51,7 +51,11 @@ def test_the_arm_is_read_with_its_pose_gears_and_sensors() -> None:
 
 def test_the_testbed_is_read_with_its_friction() -> None:
     found = reading.read(
-        scenario=scenarios.load("wall"), case=None, axis="x", texts={"controller.dq_cutoff": "50"}, fmu_dir=find_fmu_dir()
+        scenario=scenarios.load("wall"),
+        case=None,
+        axis="x",
+        texts={"controller.dq_cutoff": "50"},
+        fmu_dir=find_fmu_dir(),
     )
     assert found.friction.F_s == found.friction.F_c == 0.64
     assert found.friction.b == 0.19
@@ -93,9 +97,7 @@ def test_the_command_warns_with_numbers_and_with_what_mends_it(tmp_path: Path) -
     assert "Hz on the velocity" in mends
     assert (tmp_path / "tune.png").read_bytes().startswith(b"\x89PNG")
 
-    mended = CliRunner().invoke(
-        app, [*coarse, "--K", "3000", "--resolution", "1e-6", "--D-n", "40", "--M-n", "10"]
-    )
+    mended = CliRunner().invoke(app, [*coarse, "--K", "3000", "--resolution", "1e-6", "--D-n", "40", "--M-n", "10"])
     assert mended.exit_code == 0, mended.output
     numbers = json.loads((tmp_path / "tune.json").read_text(encoding="utf-8"))
     assert numbers["warnings"] == []
@@ -106,7 +108,21 @@ def test_the_command_warns_with_numbers_and_with_what_mends_it(tmp_path: Path) -
 def test_options_go_over_what_is_read_and_friction_over_friction(tmp_path: Path) -> None:
     done = CliRunner().invoke(
         app,
-        ["tune", "--scenario", "wall", "--K", "77", "--F-c", "1", "--F-s", "2", "--v-s", "0.05", "--out", str(tmp_path)],
+        [
+            "tune",
+            "--scenario",
+            "wall",
+            "--K",
+            "77",
+            "--F-c",
+            "1",
+            "--F-s",
+            "2",
+            "--v-s",
+            "0.05",
+            "--out",
+            str(tmp_path),
+        ],
     )
     assert done.exit_code == 0, done.output
     numbers = json.loads((tmp_path / "tune.json").read_text(encoding="utf-8"))

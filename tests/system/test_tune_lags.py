@@ -19,8 +19,18 @@ from exo.tuning.machine import Gains, Machine
 
 WALL = Gains(M_n=1e9, D_n=1.0, K=1.0, K_P=1e-6)
 LAGGED = Loop(
-    **{"M": 6.0, "M_n": 2.0, "D_n": 3.0, "K": 300.0, "K_P": 10.0, "alpha": 1.0, "T": 0.002, "substep": 8e-5},
-    **{"b": -4.0, "dq_cutoff": 30.0, "f_cutoff": 20.0, "drive_cutoff": 60.0},
+    M=6.0,
+    M_n=2.0,
+    D_n=3.0,
+    K=300.0,
+    K_P=10.0,
+    alpha=1.0,
+    T=0.002,
+    substep=8e-5,
+    b=-4.0,
+    dq_cutoff=30.0,
+    f_cutoff=20.0,
+    drive_cutoff=60.0,
 )
 
 
@@ -57,7 +67,7 @@ def test_many_substeps_come_near_the_exact_lag_and_friction() -> None:
 
 @pytest.mark.parametrize("cutoff", [1.0, 30.0, 200.0])
 def test_without_delay_a_low_pass_on_the_velocity_leaves_a_pure_damper_its_limit(cutoff: float) -> None:
-    # (z − 1)(z − 1 + w) + β w (z + 1)/2 = 0, w the low pass' share: Jury's criterion gives β = K T/M < 2, whatever w is.
+    # (z − 1)(z − 1 + w) + β w (z + 1)/2 = 0, w the low pass' share: by Jury β = K T/M < 2, whatever w is.
     machine = Machine(T=0.002, M_min=6.0, M_max=6.0, dq_cutoff=cutoff)
     interval = region.gain_interval(machine=machine, gains=WALL, M=6.0)
     assert interval is not None
@@ -116,16 +126,31 @@ def test_nyquist_counts_with_lags_what_the_matrix_has(seed: int) -> None:
 
 def test_the_delay_margin_with_lags_is_where_later_forces_begin_to_grow() -> None:
     machine = Machine(
-        **{"T": 0.001, "M_min": 20.0, "M_max": 20.0, "k_h": 300.0, "b_h": 25.0},
-        **{"dq_cutoff": 60.0, "f_cutoff": 30.0, "drive_cutoff": 100.0},
+        T=0.001,
+        M_min=20.0,
+        M_max=20.0,
+        k_h=300.0,
+        b_h=25.0,
+        dq_cutoff=60.0,
+        f_cutoff=30.0,
+        drive_cutoff=100.0,
     )
     gains = Gains(M_n=10.0, D_n=40.0, K=2000.0, K_P=20.0)
     margin = region.delay_margin(machine=machine, gains=gains, M=20.0) / machine.T
     without = replace(machine, dq_cutoff=0.0, f_cutoff=0.0, drive_cutoff=0.0)
     assert 1.0 < margin < region.delay_margin(machine=without, gains=gains, M=20.0) / machine.T - 3.0
     at = theory.Loop(
-        **{"M": 20.0, "M_n": 10.0, "D_n": 40.0, "K": 2000.0, "K_P": 20.0, "alpha": 1.0, "T": 0.001, "substep": 0.0},
-        **{"dq_cutoff": 60.0, "f_cutoff": 30.0, "drive_cutoff": 100.0},
+        M=20.0,
+        M_n=10.0,
+        D_n=40.0,
+        K=2000.0,
+        K_P=20.0,
+        alpha=1.0,
+        T=0.001,
+        substep=0.0,
+        dq_cutoff=60.0,
+        f_cutoff=30.0,
+        drive_cutoff=100.0,
     )
     last, first = (
         theory.growth_rate(loop=at, hand=machine.hand, delay=n) for n in (math.floor(margin), math.ceil(margin))
@@ -153,7 +178,11 @@ def test_the_fmus_swing_grows_as_the_loop_with_its_lags_does(
     run = simulate(plan=replace(whole, duration=3.0), archives=archives)
     found = growth_rate(run, column="plant.p[1]", after=1.0, before=3.0)
     paper = Loop(M=99.93, M_n=5.0, D_n=20.0, K=1000.0, K_P=20.0, alpha=1.0, T=0.001, substep=1e-4)
-    cutoffs = {"dq_cutoff": "controller.dp_cutoff", "f_cutoff": "controller.ft.cutoff", "drive_cutoff": "plant.drive.cutoff"}
+    cutoffs = {
+        "dq_cutoff": "controller.dp_cutoff",
+        "f_cutoff": "controller.ft.cutoff",
+        "drive_cutoff": "plant.drive.cutoff",
+    }
     lagged = replace(paper, **{name: lags.get(key, 0.0) for name, key in cutoffs.items()})
     expected = theory.growth_rate(loop=lagged, hand=Hand(k_h=1000.0))
     assert found == pytest.approx(expected, abs=1e-3)  # the axes are coupled by 1.4 kg of 100 kg, which is left out

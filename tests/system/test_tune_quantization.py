@@ -108,7 +108,7 @@ def test_each_remedy_alone_is_just_enough() -> None:
 def test_the_arm_rests_where_friction_swallows_the_counts(
     bits: int, K: float, friction: bool, moves: bool, archives: Mapping[str, Archive]
 ) -> None:
-    # The rule is sufficient: at a share of 1.5 to 2 the arm may rest, too. 4.6 and 3.0 keep it moving, as no friction does.
+    # The rule is sufficient: at a share of 2 the arm may rest, too. 4.6 and 3.0 keep it moving, as no friction does.
     data = scenarios.load("arm_presets")
     settings: dict[str, float | str] = {f"controller.K[{i}]": K for i in (1, 2, 3)}
     settings |= {"plant.encoder.kind": "joint", "plant.encoder.bits": bits, "controller.encoder.samples": 0}

@@ -1,4 +1,4 @@
-"""`exo tune` on stick-slip: friction's describing function and slope, the classical rule, and the FMUs led by a hand."""
+"""`exo tune` on stick-slip: friction's describing function and slope, the classical rule, the FMUs led by a hand."""
 
 import math
 from collections.abc import Mapping
@@ -154,7 +154,9 @@ def test_the_arm_stands_and_slips_where_it_is_predicted_and_nowhere_else(archive
             for v in (0.004, 0.006, 0.014):
                 duration = 5.0 + min(7.0, 0.06 / v)
                 hand = {"operator__k_h": k_h, "operator__b_h": b_h, "operator__segment[1].amplitude": 20.0}
-                run = led(archives, scenario="arm_presets", case="paper_slow", v=v, duration=duration, **settings, **hand)
+                run = led(
+                    archives, scenario="arm_presets", case="paper_slow", v=v, duration=duration, **settings, **hand
+                )
                 M, friction = arm(run, tick=-1000)
                 machine = Machine(T=0.001, M_min=M, M_max=M, k_h=k_h, b_h=b_h, substep=1e-4, drive_cutoff=318.0)
                 gains = Gains(M_n=M_n, D_n=D_n, K=K, K_P=20.0)
@@ -179,31 +181,32 @@ def test_the_arm_stands_and_slips_where_it_is_predicted_and_nowhere_else(archive
 
 
 @pytest.mark.parametrize(
-    ("M_n", "D_n", "K", "k_h", "b_h", "speeds"),
+    ("gains", "hand", "speeds"),
     [
-        (5.0, 0.5, 30.0, 100.0, 2.0, {0.002: "after a jolt", 0.01: "after a jolt", 0.2: "smooth"}),
-        (5.0, 0.5, 30.0, 300.0, 10.0, {0.002: "after a jolt", 0.01: "after a jolt", 0.2: "smooth"}),
-        (5.0, 0.5, 30.0, 20.0, 2.0, {0.002: "after a jolt", 0.01: "smooth", 0.05: "smooth"}),
-        (5.0, 20.0, 30.0, 300.0, 10.0, {0.002: "smooth", 0.05: "smooth"}),
-        (1.0, 2.0, 300.0, 100.0, 2.0, {0.002: "smooth", 0.05: "smooth"}),
-        (1.0, 2.0, 30.0, 100.0, 2.0, {0.01: "slips"}),
+        ((5.0, 0.5, 30.0), (100.0, 2.0), {0.002: "after a jolt", 0.01: "after a jolt", 0.2: "smooth"}),
+        ((5.0, 0.5, 30.0), (300.0, 10.0), {0.002: "after a jolt", 0.01: "after a jolt", 0.2: "smooth"}),
+        ((5.0, 0.5, 30.0), (20.0, 2.0), {0.002: "after a jolt", 0.01: "smooth", 0.05: "smooth"}),
+        ((5.0, 20.0, 30.0), (300.0, 10.0), {0.002: "smooth", 0.05: "smooth"}),
+        ((1.0, 2.0, 300.0), (100.0, 2.0), {0.002: "smooth", 0.05: "smooth"}),
+        ((1.0, 2.0, 30.0), (100.0, 2.0), {0.01: "slips"}),
     ],
 )
 def test_the_testbed_swings_after_a_jolt_where_it_is_predicted(
-    M_n: float,
-    D_n: float,
-    K: float,
-    k_h: float,
-    b_h: float,
+    gains: tuple[float, float, float],
+    hand: tuple[float, float],
     speeds: dict[float, str],
     archives: Mapping[str, Archive],
 ) -> None:
     # Its friction does not fall with speed: steady motion is as stable as the loop is. But where it stands it is a
     # damper without end, and a swing in which it stands may last.
+    (M_n, D_n, K), (k_h, b_h) = gains, hand
     machine = Machine(T=0.002, M_min=6.0, M_max=6.0, k_h=k_h, b_h=b_h, substep=8e-5)
-    gains = Gains(M_n=M_n, D_n=D_n, K=K, K_P=10.0)
+    settings = {"operator__segment[1].amplitude": 2.0, "operator__k_h": k_h, "operator__b_h": b_h}
+    settings |= {"plant__F_c": 0.64, "plant__b": 0.19}
+    settings |= {"controller__M_n": M_n, "controller__D_n": D_n, "controller__K": K}
+    judged = Gains(M_n=M_n, D_n=D_n, K=K, K_P=10.0)
     for v, expected in speeds.items():
-        verdict = sliding.verdict(machine=machine, gains=gains, friction=TESTBED, M=6.0, speed=v)
+        verdict = sliding.verdict(machine=machine, gains=judged, friction=TESTBED, M=6.0, speed=v)
         assert verdict == expected, v
         run = led(
             archives,
@@ -211,9 +214,7 @@ def test_the_testbed_swings_after_a_jolt_where_it_is_predicted(
             case="hand_below",
             v=v,
             duration=44.0,
-            **{"operator__segment[1].amplitude": 2.0, "operator__k_h": k_h, "operator__b_h": b_h},
-            **{"plant__F_c": 0.64, "plant__b": 0.19},
-            **{"controller__M_n": M_n, "controller__D_n": D_n, "controller__K": K},
+            **settings,
         )
         least = float(np.min(run["plant.dq"][run.time > 36.0])) / v  # the slowest swing decays in 15 s
         assert (least > HARDLY) == (verdict == "smooth"), (v, least)
@@ -231,9 +232,7 @@ def test_the_presets_stand_on_the_sides_that_their_scenario_measures() -> None:
             kind(**{field.name: found.values[field.name] for field in fields(kind) if field.name in found.values})
             for kind in (Machine, Gains)
         )
-        verdict = sliding.verdict(
-            machine=machine, gains=gains, friction=found.friction, M=machine.M_max, speed=0.006
-        )
+        verdict = sliding.verdict(machine=machine, gains=gains, friction=found.friction, M=machine.M_max, speed=0.006)
         check = slowest.expected[case]
         assert (verdict == "smooth") == (check.at_least is not None), name
         assert (verdict == "slips") == (check.at_most is not None), name

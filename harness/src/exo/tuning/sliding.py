@@ -30,6 +30,8 @@ SPEEDS = np.geomspace(1e-4, 1.0, 161)
 PER_DECADE = 8
 #: Below this (N·s/m) a damper is nothing.
 NOTHING = 1.0
+#: How far below the least slope of friction dampers are tried.
+BEYOND = 4.0
 #: How far above what is needed K is looked for.
 FURTHER = 100.0
 
@@ -39,10 +41,11 @@ class Sliding:
     """What dry friction does to a motion along the axis, at the mass M (kg).
 
     F_s, F_c in N; least_slope of friction in N·s/m; least_held: the slope above which the loop holds it, −inf if it
-    holds all that this friction has. slips: the speeds (m/s) at which steady motion is unstable. smooth_above: from
-    this speed on (m/s) no swing lasts, 0 if none does at any speed, inf if one does at every speed. K_smooth: the K
-    (N·s/m) from which on no speed slips by itself, None if K alone does not do. speed (m/s) is one that is asked about,
-    and verdict what it does: "slips", "after a jolt", "smooth".
+    holds four times what this friction has. unstable: the dampers (N·s/m) with which the loop is not stable. slips:
+    the speeds (m/s) at which steady motion is unstable. smooth_above: from this speed on (m/s) no swing lasts, 0 if
+    none does at any speed, inf if one does at every speed. K_smooth: the K (N·s/m) from which on no speed slips by
+    itself, None if K alone does not do. speed (m/s) is one that is asked about, and verdict what it does: "slips",
+    "after a jolt", "smooth".
     """
 
     M: float
@@ -50,6 +53,7 @@ class Sliding:
     F_c: float
     least_slope: float
     least_held: float
+    unstable: list[Interval]
     slips: list[Interval]
     smooth_above: float
     K_smooth: float | None
@@ -66,11 +70,12 @@ def sliding(*, machine: Machine, gains: Gains, friction: Friction, M: float, spe
     """Judges the motion at every speed, and at `speed` (m/s)."""
     speeds = [float(v) for v in SPEEDS]
     spans = {v: friction.span(v) for v in speeds}
+    lowest = min(low for low, _ in spans.values())
     unstable = unstable_dampers(
         machine=machine,
         gains=gains,
         M=M,
-        least=min(low for low, _ in spans.values()),
+        least=min(lowest, BEYOND * lowest),  # it shows how far the loop is from slipping
         most=max(high for _, high in spans.values()),
     )
 
@@ -89,6 +94,7 @@ def sliding(*, machine: Machine, gains: Gains, friction: Friction, M: float, spe
         F_c=friction.F_c,
         least_slope=friction.least_slope,
         least_held=max((dampers.high for dampers in negative), default=-math.inf),
+        unstable=unstable,
         slips=ranges(speeds, unsteady),
         smooth_above=lasts[-1].high if lasts else 0.0,
         K_smooth=smooth_gain(machine=machine, gains=gains, friction=friction, M=M),
