@@ -121,7 +121,7 @@ def count_of(run: Recording, *, plant: str, joint: int) -> float:
         case "motor":
             return 2.0 * math.pi / (run.parameter(f"{plant}.encoder.counts") * run.parameter(f"{plant}.gear[{joint}]"))
         case "joint":
-            return 2.0 * math.pi / 2.0 ** run.parameter(f"{plant}.encoder.bits")
+            return 2.0 * math.pi / math.pow(2.0, run.parameter(f"{plant}.encoder.bits"))
         case _:
             return 0.0
 
