@@ -187,3 +187,25 @@ def test_the_fmus_swing_grows_as_the_loop_with_its_lags_does(
     expected = theory.growth_rate(loop=lagged, hand=Hand(k_h=1000.0))
     assert found == pytest.approx(expected, abs=1e-3)  # the axes are coupled by 1.4 kg of 100 kg, which is left out
     assert abs(expected - theory.growth_rate(loop=paper, hand=Hand(k_h=1000.0))) > 0.1
+
+
+@pytest.mark.parametrize(
+    ("lag", "of_the_loop"),
+    [
+        ({"dq_cutoff": 5.0}, {"dq_cutoff": 5.0}),
+        ({"f_cutoff": 5.0}, {"f_cutoff": 5.0}),
+        ({"drive_cutoff": 5.0}, {"drive_cutoff": 5.0}),
+        ({"slope": -200.0}, {"b": -200.0}),
+    ],
+)
+@pytest.mark.parametrize("hand_delay", [0.0, 0.05])
+def test_each_lag_of_the_machine_is_in_the_loop_that_is_judged(
+    lag: dict[str, float], of_the_loop: dict[str, float], hand_delay: float
+) -> None:
+    # 50 ms are 50 samples: there Nyquist's count judges, and here the matrix.
+    machine = Machine(T=0.001, M_min=20.0, M_max=20.0, k_h=300.0, b_h=25.0, hand_delay=hand_delay, **lag)
+    gains = Gains(M_n=10.0, D_n=40.0, K=2000.0, K_P=20.0)
+    plain = Loop(M=20.0, M_n=10.0, D_n=40.0, K=2000.0, K_P=20.0, alpha=1.0, T=0.001, substep=0.0)
+    expected = theory.growth_rate(loop=replace(plain, **of_the_loop), hand=machine.hand)
+    assert region.growth(machine=machine, gains=gains, M=20.0) == pytest.approx(expected, abs=1e-5)
+    assert abs(expected - theory.growth_rate(loop=plain, hand=machine.hand)) > 1e-3
