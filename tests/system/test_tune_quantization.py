@@ -24,7 +24,7 @@ def judged(machine: Machine, gains: Gains, F_c: float) -> quantization.Quantizat
 
 
 def law(*, machine: Machine, gains: Gains, reading: np.ndarray) -> np.ndarray:
-    """τ_a for readings of a robot that stands, by docs/specification.md section 1, written down a second time."""
+    """τ_a for readings of a robot that stands: the law written down a second time (docs/specification.md section 1)."""
     T, K_P, alpha = machine.T, gains.K_P, gains.alpha
     keep = np.exp(-2.0 * np.pi * machine.dq_cutoff * T) if machine.dq_cutoff else 0.0
     q_n = v_n = dq = before = 0.0
