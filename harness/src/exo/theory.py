@@ -5,6 +5,7 @@ Symbols are the paper's. The position q, the nominal q_n, e = q_n − q; f_h is 
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,7 +18,10 @@ Array = NDArray[np.float64]
 class Loop:
     """The unlimited loop of law 2 (`passive`) and a free mass without friction.
 
-    M, M_n in kg; D_n, K, alpha in N·s/m; K_P in 1/s; T and substep in s.
+    M, M_n in kg; D_n, K, alpha in N·s/m; K_P in 1/s; T and substep in s. Of `opened` and what is built on it, also: b,
+    friction of the robot that is proportional to its speed (N·s/m; negative where dry friction falls with speed), and
+    the corner frequencies (Hz, 0: none) of the low passes on the sensed velocity, on the force that the law sees, and
+    of the drive's torque.
     """
 
     M: float
@@ -28,6 +32,10 @@ class Loop:
     alpha: float
     T: float
     substep: float
+    b: float = 0.0
+    dq_cutoff: float = 0.0
+    f_cutoff: float = 0.0
+    drive_cutoff: float = 0.0
 
 
 def continuous(*, loop: Loop, omega: float) -> complex:
@@ -121,7 +129,8 @@ class Hand:
 class Opened:
     """Law and robot over one tick: x⁺ = A x + B u + F f_h, τ_a = C x + G f_h.
 
-    x = (q, dq, q_k − q_{k−1}, e, v_n); u is the force that reaches the robot: τ_a, or that of an earlier tick.
+    x = (q, dq, q_k − q_{k−1}, e, v_n), then as far as the loop has them the low-passed velocity, the low-passed force,
+    and the drive's torque; u is the force asked of the robot: τ_a, or that of an earlier tick.
     """
 
     A: Array
@@ -131,29 +140,74 @@ class Opened:
     G: float
 
 
-def opened(*, loop: Loop) -> Opened:
-    """The implicit midpoint law of docs/specification.md section 1 and a free mass without friction.
+def weight(*, cutoff: float, T: float) -> float:
+    """Share w of x⁺ = x + w (u − x), the sampled first-order low pass: 1 − exp(−2π f T), f in Hz; 1 for f = 0, none."""
+    return float(-np.expm1(-2.0 * np.pi * cutoff * T)) if cutoff else 1.0
 
-    The mass takes its n substeps by backward Euler, as `sampled_tick`; a substep of 0 stands for the exact mass
-    (n → ∞).
+
+def robot(*, loop: Loop) -> tuple[Array, Array, Array]:
+    """(q, dq, τ) over one tick: its map (3, 3), what the force asked of the drive adds (3), and a force on the mass
+    (3).
+
+        M ddq = τ + f − b dq,  dτ/dt = 2π f_d (u − τ); without a lag τ = u
+
+    In n substeps as the plants take them, backward Euler with the torque at the end of each; a substep of 0 stands for
+    the exact solution (n → ∞).
+    """
+    step = _robot(M=loop.M, b=loop.b, T=loop.T, substep=loop.substep, lag=2.0 * np.pi * loop.drive_cutoff)
+    return step[:3, :3], step[:3, 3], step[:3, 4]
+
+
+@lru_cache(maxsize=1024)  # a search for a gain asks for the same robot again and again
+def _robot(*, M: float, b: float, T: float, substep: float, lag: float) -> Array:
+    """The map of (q, dq, τ, u, f), for the `lag` in rad/s."""
+    if substep > 0.0:
+        n = int(np.ceil(T / substep - 1e-6))
+        dt = T / n
+        keep = np.exp(-lag * dt) if lag else 0.0
+        q, v, tau, u, f = np.eye(5)
+        tau_end = keep * tau + (1.0 - keep) * u
+        v_end = (M * v + dt * (tau_end + f)) / (M + dt * b)
+        step: Array = np.linalg.matrix_power(np.array([q + dt * v_end, v_end, tau_end, u, f]), n)
+    else:
+        flow = np.zeros((5, 5))
+        flow[0, 1] = T
+        flow[1] = np.array([0.0, -b, 1.0, 0.0, 1.0]) * T / M if lag else np.array([0.0, -b, 0.0, 1.0, 1.0]) * T / M
+        flow[2] = np.array([0.0, 0.0, -lag, lag, 0.0]) * T
+        step = expm(flow)
+        step[:, 0] = np.eye(5)[0]  # nothing depends on the place, not by rounding either
+    step.setflags(write=False)
+    return step
+
+
+def opened(*, loop: Loop) -> Opened:
+    """The implicit midpoint law of docs/specification.md section 1 and the `robot` without dry friction.
+
+    Low passes as the law has them: on the difference of positions (`dq_cutoff`), and on the force of which only the law
+    knows (`f_cutoff`); the robot feels the force itself.
     """
     T, K_P, alpha = loop.T, loop.K_P, loop.alpha
-    q, v, moved, e, v_n = np.eye(5)
+    seen, felt = weight(cutoff=loop.dq_cutoff, T=T), weight(cutoff=loop.f_cutoff, T=T)
+    has = [seen < 1.0, felt < 1.0, loop.drive_cutoff > 0.0]
+    unit = np.eye(5 + sum(has) + 2)  # the states, then u and f_h
+    u, f_h = unit[-2:]
+    q, v, moved, e, v_n = unit[:5]
+    smooth, force, tau = (unit[4 + sum(has[: i + 1])] if has[i] else np.zeros(len(unit)) for i in range(3))
+
     c = 1.0 + K_P * T / 2.0
-    inertia, dq = 2.0 * loop.M_n / T, moved / T
-    reluctance = inertia + loop.D_n + alpha * c
-    v_m, v_m_per_force = (inertia * v_n + alpha * (c * dq - K_P * e)) / reluctance, 1.0 / reluctance
-    C, G = loop.K * (c * (v_m - dq) + K_P * e), loop.K * c * v_m_per_force
-    n = np.ceil(T / loop.substep - 1e-6) if loop.substep > 0.0 else np.inf
-    travel = 0.5 * (1.0 + 1.0 / n) * T**2 / loop.M
-    push = np.array([travel, T / loop.M, travel, -travel, 0.0])
-    return Opened(
-        A=np.array([q + T * v, v, T * v, e + T * v_m - T * v, 2.0 * v_m - v_n]),
-        B=push,
-        F=push + np.array([0.0, 0.0, 0.0, T * v_m_per_force, 2.0 * v_m_per_force]),
-        C=C,
-        G=G,
-    )
+    dq = (1.0 - seen) * smooth + seen * moved / T
+    f = (1.0 - felt) * force + felt * f_h
+    inertia = 2.0 * loop.M_n / T
+    v_m = (inertia * v_n + f + alpha * (c * dq - K_P * e)) / (inertia + loop.D_n + alpha * c)
+    out = loop.K * (c * (v_m - dq) + K_P * e)
+
+    own, asked, pushed = robot(loop=loop)
+    q_end, v_end, tau_end = own @ np.array([q, v, tau]) + np.outer(asked, u) + np.outer(pushed, f_h)
+    way = q_end - q
+    rows = [q_end, v_end, way, e + T * v_m - way, 2.0 * v_m - v_n]
+    rows += [row for row, there in zip((dq, f, tau_end), has, strict=True) if there]
+    whole = np.array(rows)
+    return Opened(A=whole[:, :-2], B=whole[:, -2], F=whole[:, -1], C=out[:-2], G=float(out[-1]))
 
 
 def closed_loop(*, loop: Loop, hand: Hand = Hand(), delay: int = 0) -> Array:
@@ -168,15 +222,17 @@ def closed_loop(*, loop: Loop, hand: Hand = Hand(), delay: int = 0) -> Array:
     share = max(late - whole, 0.0) if late - whole > 1e-9 else 0.0
     reflex = whole + (1 if share else 0)
 
+    order = len(law.B)
+
     def tick(state: Array) -> Array:
-        x, under_way, meant = np.split(state, [5, 5 + delay])
+        x, under_way, meant = np.split(state, [order, order + delay])
         felt = [-hand.k_h * x[0] - hand.b_h * x[1], *meant]
         f_h = (1.0 - share) * felt[whole] + share * felt[reflex]
         forces = [law.C @ x + law.G * f_h, *under_way]
         x_after = law.A @ x + law.B * forces[delay] + law.F * f_h
         return np.concatenate([x_after, forces[:delay], felt[:reflex]])
 
-    matrix = np.column_stack([tick(unit) for unit in np.eye(5 + delay + reflex)])
+    matrix = np.column_stack([tick(unit) for unit in np.eye(order + delay + reflex)])
     return matrix if hand.k_h else matrix[1:, 1:]
 
 

@@ -1,4 +1,4 @@
-"""The gain guide as a picture: K over the mass, and k_h over K at the lightest and the heaviest mass."""
+"""The gain guide as a picture: K over the mass, k_h over K at the lightest and the heaviest mass, and dry friction."""
 
 import math
 from collections.abc import Callable
@@ -15,7 +15,9 @@ from numpy.typing import NDArray
 from exo.plots import STYLE
 from exo.theory import Hand
 from exo.tuning import region
+from exo.tuning.friction import Friction
 from exo.tuning.guide import KT_OVER_M_MAX, Guide
+from exo.tuning.sliding import Sliding
 
 Array = NDArray[np.float64]
 #: Points of the map along each axis, and halves by which a boundary between two of them is found.
@@ -27,13 +29,16 @@ AROUND = 2.0
 def draw(*, guide: Guide, path: Path) -> None:
     """Writes the picture as PNG."""
     machine = guide.machine
-    heaviest = sorted({machine.M_min, machine.M_max})
+    ends = sorted({machine.M_min, machine.M_max})
+    panels = 1 + len(ends) + int(guide.friction is not None)
     with mpl.rc_context(STYLE):  # type: ignore[arg-type]
-        canvas = Canvas(layout="constrained", figsize=(4.2 * (1 + len(heaviest)), 4.4))
-        axes = canvas.subplots(1, 1 + len(heaviest), squeeze=False)[0]
+        canvas = Canvas(layout="constrained", figsize=(4.2 * panels, 4.4))
+        axes = canvas.subplots(1, panels, squeeze=False)[0]
         _over_mass(axes[0], guide)
-        for place, mass in zip(axes[1:], heaviest, strict=True):
+        for place, mass in zip(axes[1:], ends, strict=False):
             _over_gain(place, guide, M=mass)
+        if guide.friction is not None and guide.worst_sliding is not None:
+            _over_speed(axes[-1], guide.friction, guide.worst_sliding)
         verdict = "stable" if guide.stable else "unstable"
         title = f"The gains are {verdict}. T = {1e3 * machine.T:g} ms, delay {machine.delay}"
         canvas.suptitle(title, fontsize=11)
@@ -93,6 +98,24 @@ def _over_gain(axes: Any, guide: Guide, *, M: float) -> None:
     axes.plot([gains.K], [max(machine.k_h, k_h[0])], "k+", markersize=11, label="the gains and the hand")
     axes.plot([], [], "s", color="#dddddd", markeredgecolor="#555555", markersize=9, label="hatched: something grows")
     axes.set(xscale="log", yscale="log", xlabel="K [N·s/m]", ylabel="k_h [N/m]", title=f"M = {M:.4g} kg")
+    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.18), ncols=1)
+
+
+def _over_speed(axes: Any, friction: Friction, at: Sliding) -> None:
+    """What friction is worth as a damper at each speed, and the dampers with which the loop is unstable."""
+    v = np.geomspace(1e-3, 0.1, 80)
+    low, high = np.array([friction.span(float(x)) for x in v]).T
+    axes.fill_between(
+        1e3 * v, low, high, color="C0", alpha=0.25, linewidth=0.0, label="friction, of a swing of any size"
+    )
+    axes.plot(1e3 * v, [friction.slope(float(x)) for x in v], color="C0", label="friction, of steady motion: its slope")
+    for i, dampers in enumerate(at.unstable):
+        label = "hatched: the loop is unstable" if i == 0 else None
+        axes.axhspan(dampers.low, dampers.high, facecolor="#dddddd", hatch="///", alpha=0.6, label=label)
+    if at.speed is not None:
+        axes.axvline(1e3 * at.speed, color="k", linestyle=":", label="the speed that is asked about")
+    axes.set(xscale="log", xlabel="speed [mm/s]", ylabel="damper [N·s/m]", title=f"stick-slip, M = {at.M:.4g} kg")
+    axes.set_yscale("symlog", linthresh=100.0)
     axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.18), ncols=1)
 
 

@@ -2,10 +2,14 @@
 
 from dataclasses import dataclass, replace
 
+from exo.errors import ExoError
 from exo.theory import Hand
 from exo.tuning import region
+from exo.tuning.friction import Friction
 from exo.tuning.machine import LEAST, Gains, Machine, check
+from exo.tuning.quantization import Quantization, quantization
 from exo.tuning.region import Interval, Swing
+from exo.tuning.sliding import Sliding, sliding
 
 #: K T/M_min and M_n/M_min that the controllers warn of (fmu/admittance/src/advice.rs).
 KT_OVER_M_MAX = 0.25
@@ -40,7 +44,11 @@ class AtMass:
 
 @dataclass(frozen=True, kw_only=True)
 class Guide:
-    """Everything that `exo tune` says. Masses and nominal in kg, K and D_n in N·s/m."""
+    """Everything that `exo tune` says. Masses and nominal in kg, K and D_n in N·s/m.
+
+    `quantization` is None for an ideal encoder. `sliding` is what dry friction does at the lightest and at the heaviest
+    mass, empty without friction.
+    """
 
     machine: Machine
     gains: Gains
@@ -50,6 +58,14 @@ class Guide:
     M_n_smallest: float | None
     D_n_smallest: float | None
     gain_warning: int
+    friction: Friction | None
+    quantization: Quantization | None
+    sliding: list[Sliding]
+
+    @property
+    def worst_sliding(self) -> Sliding | None:
+        """That of the mass at which motion is smooth from the highest speed on."""
+        return max(self.sliding, key=lambda at: (at.smooth_above, at.slips_below), default=None)
 
     @property
     def stable(self) -> bool:
@@ -123,18 +139,35 @@ def at_mass(*, machine: Machine, gains: Gains, M: float, frequency: float) -> At
     )
 
 
-def guide(*, machine: Machine, gains: Gains, frequency: float) -> Guide:
+def guide(
+    *,
+    machine: Machine,
+    gains: Gains,
+    frequency: float,
+    friction: Friction | None = None,
+    speed: float | None = None,
+) -> Guide:
     """Judges the gains at every mass, and looks for better ones.
 
     M_n_smallest and D_n_smallest: each alone, the other gains as given, so that the loop holds `MARGIN` times the
     hand's stiffness at every mass; 0 if nothing bounds it, None if it alone does not do. `frequency` in Hz, at
-    most that of a swing from tick to tick.
+    most that of a swing from tick to tick. `speed` in m/s is one that is asked about; it needs a friction.
     """
     check("frequency", frequency, least=LEAST, most=0.5 / machine.T)
+    if speed is not None:
+        check("speed", speed, least=LEAST)
+        if friction is None:
+            raise ExoError(f"speed = {speed:g}: expected dry friction beside it: F_c, or a scenario that has it")
 
     def holds(changed: Gains) -> bool:
         return region.stable_at_all(machine=machine, gains=changed, k_h_factor=MARGIN)
 
+    slides = []
+    if friction is not None:
+        slides = [
+            sliding(machine=machine, gains=gains, friction=friction, M=M, speed=speed)
+            for M in sorted({machine.M_min, machine.M_max})
+        ]
     return Guide(
         machine=machine,
         gains=gains,
@@ -148,4 +181,7 @@ def guide(*, machine: Machine, gains: Gains, frequency: float) -> Guide:
             stable=lambda D_n: holds(replace(gains, D_n=D_n)), low=1e-2, high=1e3 * machine.M_max
         ),
         gain_warning=warning(machine=machine, gains=gains),
+        friction=friction,
+        quantization=quantization(machine=machine, gains=gains, F_c=friction.F_c if friction else 0.0),
+        sliding=slides,
     )

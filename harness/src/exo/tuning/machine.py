@@ -11,7 +11,10 @@ from exo.theory import Hand, Loop
 #: Masses between the lightest and the heaviest at which the loop is judged.
 MASSES = 9
 #: What may be 0. Everything else has the range of the controllers' parameters (`min` of modelDescription/*.xml).
-MAY_BE_ZERO = ("k_h", "b_h", "hand_delay", "substep", "D_n", "alpha", "delay")
+MAY_BE_ZERO = (
+    *("k_h", "b_h", "hand_delay", "substep", "D_n", "alpha", "delay"),
+    *("dq_cutoff", "f_cutoff", "drive_cutoff", "resolution", "F_c", "F_s", "b"),
+)
 LEAST = 1e-6
 #: Beyond it no machine is meant, and the arithmetic would overflow.
 MOST = 1e12
@@ -22,7 +25,7 @@ class Checked:
 
     def __post_init__(self) -> None:
         for field in fields(self):  # type: ignore[arg-type]
-            least = 0.0 if field.name in MAY_BE_ZERO else LEAST
+            least = 0.0 if field.name in MAY_BE_ZERO else -MOST if field.name == "slope" else LEAST
             check(field.name, getattr(self, field.name), least=least)
 
 
@@ -39,7 +42,10 @@ class Machine(Checked):
     """A robot along one axis, and the hand on it.
 
     T in s; delay of the force in samples; effective masses M_min ≤ M_max in kg; k_h in N/m, b_h in N·s/m, hand_delay in
-    s; substep of the simulated plant in s, 0 for the exact mass.
+    s; substep of the simulated plant in s, 0 for the exact mass. Corner frequencies in Hz, 0 for none: of the low
+    passes on the velocity and on the force that the law sees, and of the drive's lag. resolution: one count of the
+    encoder along the axis in m, 0 for an ideal one. slope: friction of the robot over its speed in N·s/m, of either
+    sign.
     """
 
     T: float
@@ -50,6 +56,11 @@ class Machine(Checked):
     b_h: float = 0.0
     hand_delay: float = 0.0
     substep: float = 0.0
+    dq_cutoff: float = 0.0
+    f_cutoff: float = 0.0
+    drive_cutoff: float = 0.0
+    resolution: float = 0.0
+    slope: float = 0.0
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -95,4 +106,8 @@ def loop(*, machine: Machine, gains: Gains, M: float) -> Loop:
         alpha=gains.alpha,
         T=machine.T,
         substep=machine.substep,
+        b=machine.slope,
+        dq_cutoff=machine.dq_cutoff,
+        f_cutoff=machine.f_cutoff,
+        drive_cutoff=machine.drive_cutoff,
     )

@@ -17,6 +17,7 @@ import numpy as np
 from numpy.polynomial import polynomial
 from numpy.typing import NDArray
 
+from exo import theory
 from exo.theory import Array, Hand, Loop
 
 Complex = NDArray[np.complex128]
@@ -48,37 +49,81 @@ def plus(a: Array, b: Array) -> Array:
 
 @dataclass(frozen=True, kw_only=True)
 class Parts:
-    """The loop as polynomials in w = z − 1, lowest power first; all coefficients are sums of what is not negative.
+    """The loop as polynomials in w = z − 1, lowest power first. Without low passes, lag and friction all coefficients
+    are sums of what is not negative.
 
-    S: the nominal. G_1: K_P and c of what is sensed, G_2: of the nominal. I_1: what the nominal resists with. travel:
-    q of the mass for a force, over T²/M. H: the hand on the mass.
+    S: the nominal. G_1: K_P and c of what is sensed, G_2: of the nominal. I_1: what the nominal resists with. seen,
+    felt: what the low passes on velocity and force divide by; share: what the one on force multiplies with. Of the
+    robot: poles, and w times that is what all of its answers divide by; q_u, v_u: place over T²/M and velocity over T/M
+    for a force asked of the drive; q_f, v_f: for a force on the mass; minor: v_f q_u − v_u q_f over w times `poles`.
     """
 
     S: Array
     G_1: Array
     G_2: Array
     I_1: Array
-    travel: Array
-    H: Array
+    seen: Array
+    felt: Array
+    share: Array
+    poles: Array
+    q_u: Array
+    v_u: Array
+    q_f: Array
+    v_f: Array
+    minor: Array
 
     @classmethod
-    def of(cls, *, loop: Loop, hand: Hand) -> "Parts":
+    def of(cls, *, loop: Loop) -> "Parts":
         """From the equations of `theory.opened`, each with z − 1 or (z + 1)/2 in place of its difference or mean."""
         T, c = loop.T, 1.0 + loop.K_P * loop.T / 2.0
         inertia, coupling = 2.0 * loop.M_n / T, loop.K_P * T
-        n = np.ceil(T / loop.substep - 1e-6) if loop.substep > 0.0 else np.inf
-        travel = np.array([1.0, 0.5 * (1.0 + 1.0 / n)])
+        seen, felt = (theory.weight(cutoff=f, T=T) for f in (loop.dq_cutoff, loop.f_cutoff))
         damping = loop.D_n + loop.alpha * c
         return cls(
             S=np.array(
                 [2.0 * loop.alpha * coupling, 2.0 * damping + loop.alpha * coupling, inertia + damping],
             ),
-            G_1=np.array([coupling, c + coupling]),
+            G_1=np.array([coupling * seen, c * seen + coupling]),
             G_2=np.array([coupling, c]),
             I_1=np.array([2.0 * loop.D_n, inertia + loop.D_n]),
-            travel=travel,
-            H=plus(hand.k_h * T**2 * travel, np.array([0.0, hand.b_h * T])),
+            seen=np.array([seen, 1.0]),
+            # Without a low pass force = force, and not z force = z force.
+            felt=np.array([felt, 1.0]) if felt < 1.0 else np.ones(1),
+            share=np.array([felt, felt]) if felt < 1.0 else np.ones(1),
+            **_robot(loop),
         )
+
+    def hand(self, *, hand: Hand, T: float) -> tuple[Array, Array]:
+        """M times the hand's force for a force asked of the drive, and for one on the mass, both over w times
+        `poles`."""
+        return tuple(  # type: ignore[return-value]
+            plus(hand.k_h * T**2 * q, hand.b_h * T * v) for q, v in ((self.q_u, self.v_u), (self.q_f, self.v_f))
+        )
+
+
+def _robot(loop: Loop) -> dict[str, Array]:
+    """The robot's part of `Parts`: its map is triangular in (q, v, τ)."""
+    T, M = loop.T, loop.M
+    if not (loop.b or loop.drive_cutoff):
+        n = np.ceil(T / loop.substep - 1e-6) if loop.substep > 0.0 else np.inf
+        travel, faster = np.array([1.0, 0.5 * (1.0 + 1.0 / n)]), np.array([0.0, 1.0])
+        return {"poles": faster, "q_u": travel, "v_u": faster, "q_f": travel, "v_f": faster, "minor": np.zeros(1)}
+    scale = np.array([M / T**2, M / T, 1.0])
+    own, asked, pushed = theory.robot(loop=loop)
+    own, asked, pushed = own * scale[:, None] / scale, asked * scale, pushed * scale
+    beta, kappa = np.array([1.0 - own[1, 1], 1.0]), np.array([1.0 - own[2, 2], 1.0])
+    if not loop.drive_cutoff:  # the same force, whoever exerts it
+        q, v = plus(own[0, 1] * pushed[1:2], pushed[0] * beta), np.array([0.0, pushed[1]])
+        return {"poles": beta, "q_u": q, "v_u": v, "q_f": q, "v_f": v, "minor": np.zeros(1)}
+    faster, further = (plus(own[i, 2] * asked[2:], asked[i] * kappa) for i in (1, 0))
+    return {
+        "poles": times(beta, kappa),
+        "q_u": plus(own[0, 1] * faster, times(beta, further)),
+        "v_u": times([0.0, 1.0], faster),
+        "q_f": times(plus(own[0, 1] * pushed[1:2], pushed[0] * beta), kappa),
+        "v_f": times([0.0, pushed[1]], kappa),
+        "minor": plus(pushed[1] * further, -pushed[0] * faster),
+    }
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -92,13 +137,20 @@ class Late:
     @classmethod
     def of(cls, *, loop: Loop, hand: Hand, delay: int) -> "Late":
         """The loop of `theory.closed_loop`."""
-        parts, z = Parts.of(loop=loop, hand=hand), [1.0, 1.0]
+        parts, z = Parts.of(loop=loop), [1.0, 1.0]
         under_way = times(*[z] * delay)
+        asked, pushed = parts.hand(hand=hand, T=loop.T)
+        nominal = times(under_way, parts.S, parts.seen)
         D = plus(
-            times(loop.M, parts.S, z, under_way, [0.0, 1.0]),
-            times(loop.K * loop.T, parts.I_1, parts.G_1, parts.travel),
+            times(loop.M, nominal, parts.poles),
+            times(loop.K * loop.T, parts.I_1, parts.G_1, parts.q_u),
         )
-        N = times(z, parts.H, plus(times(parts.S, under_way), times(loop.K, [2.0, 1.0], parts.G_2)))
+        D = times(D, parts.felt)
+        lag = times(loop.K * hand.b_h * loop.T**2 / loop.M, [0.0, 1.0], parts.I_1, parts.G_1, parts.minor)
+        N = plus(
+            times(parts.felt, plus(times(nominal, pushed), lag)),
+            times(loop.K, parts.share, asked, parts.seen, [2.0, 1.0], parts.G_2),
+        )
         if hand.k_h:
             D = times([0.0, 1.0], D)
         else:
@@ -111,8 +163,8 @@ class Late:
     def growing(self, *, size: float) -> int:
         """How many roots have |z| > `size`.
 
-        On the circle z = size (1 + i x)/(1 − i x), x from 0 to ∞ being its upper half, D and R become polynomials D̃ and
-        R̃ of degree n in u = i x over (1 − u)^n, and the roots outside number n/2 − Δarg(D̃ + z⁻ᵐ R̃)/π.
+        On the circle z = size (1 + i x)/(1 − i x), x from 0 to ∞ being its upper half, D and R become polynomials D̃
+        and R̃ of degree n in u = i x over (1 − u)^n, and the roots outside number n/2 − Δarg(D̃ + z⁻ᵐ R̃)/π.
         """
         D, R = (on_the_circle(p, size=size) for p in (self.D, self.R * size**-self.m))
         places = np.array([0.0, *crossings(D, R), np.inf])

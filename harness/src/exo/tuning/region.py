@@ -174,17 +174,25 @@ def frequencies(*, machine: Machine, M: float) -> NDArray[np.float64]:
 def cut_loop(*, machine: Machine, gains: Gains, M: float, omega: NDArray[np.float64]) -> NDArray[np.complex128]:
     """τ_a for a unit force at the robot in its place, at the frequencies `omega` (rad/s)."""
     at = loop(machine=machine, gains=gains, M=M)
-    parts = Parts.of(loop=at, hand=machine.hand)
+    parts = Parts.of(loop=at)
     s = 1j * omega * machine.T
     z, w = np.exp(s), np.expm1(s)
-    # f_h = −late H F/(M w²), as late as the hand is; linear between ticks as in `theory.closed_loop`.
+    # As late as the hand is; linear between ticks as in `theory.closed_loop`.
     whole, share = samples(delay=machine.hand_delay, T=machine.T)
-    S, G_1, G_2, I_1, travel, hand = (
-        polynomial.polyval(w, p) for p in (parts.S, parts.G_1, parts.G_2, parts.I_1, parts.travel, parts.H)
-    )
-    late_hand = np.exp(-whole * s) * (1.0 - share + share / z) * hand
-    answer = w * machine.T * I_1 * G_1 * travel / z + (w + 2.0) * G_2 * late_hand
-    return np.asarray(-at.K * z**-machine.delay * answer / (S * (M * w**2 + late_hand)))
+    late = np.exp(-whole * s) * (1.0 - share + share / z)
+
+    def value(p: NDArray[np.float64]) -> NDArray[np.complex128]:
+        return np.asarray(polynomial.polyval(w, p), dtype=np.complex128)
+
+    asked, pushed = (late * value(p) for p in parts.hand(hand=machine.hand, T=machine.T))
+    poles = w * value(parts.poles)
+    f_h = -asked / (at.M * poles + pushed)
+    place = (value(parts.q_u) + value(parts.q_f) * f_h) / poles  # over T²/M
+    felt = value(parts.share) / value(parts.felt) * f_h
+    y = (w + 2.0) * value(parts.G_2) * felt - w * machine.T / at.M * value(parts.I_1) * value(
+        parts.G_1
+    ) * place / value(parts.seen)
+    return np.asarray(at.K * z**-machine.delay * y / value(parts.S))
 
 
 @dataclass(frozen=True)
@@ -220,6 +228,6 @@ def error_per_newton(*, machine: Machine, gains: Gains, M: float, frequency: flo
     law = theory.opened(loop=loop(machine=machine, gains=gains, M=M))
     z = np.exp(2j * math.pi * frequency * machine.T)
     late = z**-machine.delay
-    left = z * np.eye(5) - law.A - late * np.outer(law.B, law.C)
+    left = z * np.eye(len(law.B)) - law.A - late * np.outer(law.B, law.C)
     x = np.linalg.solve(left[1:, 1:], (law.F + late * law.G * law.B)[1:])
     return float(abs(x[2]))

@@ -11,6 +11,7 @@ from rich.text import Text
 
 from exo.tuning import chart
 from exo.tuning.guide import KT_OVER_M_MAX, MARGIN, MN_OVER_M_MIN, AtMass, Guide
+from exo.tuning.region import Interval
 
 #: What the columns of `by_mass` are.
 LEGEND = """\
@@ -27,7 +28,9 @@ def number(value: float | None) -> str:
     """Three figures; a dash for what does not exist."""
     if value is None:
         return "–"
-    return "∞" if math.isinf(value) else f"{float(f'{value:.3g}'):.12g}"
+    if math.isinf(value):
+        return "∞" if value > 0.0 else "−∞"
+    return f"{float(f'{value:.3g}'):.12g}"
 
 
 def verdict(guide: Guide) -> str:
@@ -45,6 +48,46 @@ def verdict(guide: Guide) -> str:
         f"unstable: something grows by {number(worst.growth)} 1/s at M = {number(worst.M)} kg. "
         f"{K}; {held} at every mass with this hand."
     )
+
+
+def warnings(guide: Guide) -> list[str]:
+    """What encoder and dry friction do, a sentence each, with what would mend it."""
+    found = []
+    count, sliding = guide.quantization, guide.worst_sliding
+    if count and not count.is_swallowed:
+        mends = [
+            text
+            for value, text in (
+                (count.resolution_needed, f"a count of {number(count.resolution_needed)} m"),
+                (count.K_needed, f"K = {number(count.K_needed)} N·s/m"),
+                (count.cutoff_needed, f"a low pass of {number(count.cutoff_needed)} Hz on the velocity"),
+            )
+            if value is not None
+        ]
+        has = f"dry friction takes {number(guide.friction.F_c)} N" if guide.friction else "there is no dry friction"
+        found.append(
+            f"encoder: readings within half a count make up to {number(count.force)} N, and {has}: "
+            "a limit cycle may be." + (f" Each alone mends it: {', '.join(mends)}." if mends else "")
+        )
+    if sliding and sliding.slips:
+        spans = " and ".join(between(speeds) for speeds in sliding.slips)
+        mend = (
+            "no K alone mends it" if sliding.K_smooth is None else f"K from {number(sliding.K_smooth)} N·s/m mends it"
+        )
+        found.append(f"stick-slip: steady motion is unstable {spans} at M = {number(sliding.M)} kg; {mend}.")
+    if sliding and sliding.smooth_above > sliding.slips_below:
+        span = between(Interval(0.0, sliding.smooth_above))
+        found.append(f"stick-slip: {span} a swing can last once a jolt or rest has begun it.")
+    return found
+
+
+def between(speeds: Interval) -> str:
+    """A range of speeds in words, in mm/s."""
+    if math.isinf(speeds.high):
+        return f"above {number(1e3 * speeds.low)} mm/s" if speeds.low else "at every speed"
+    if not speeds.low:
+        return f"below {number(1e3 * speeds.high)} mm/s"
+    return f"from {number(1e3 * speeds.low)} to {number(1e3 * speeds.high)} mm/s"
 
 
 def by_mass(guide: Guide) -> Table:
@@ -87,9 +130,48 @@ def summary(guide: Guide) -> Table:
         ("M_n/D_n", number(coasting), "s, how long the nominal coasts"),
         ("1/K_P", number(1.0 / gains.K_P), "s, how fast e decays"),
         ("gain_warning", str(guide.gain_warning), "0 none, 1 K T/M_min, 2 M_n/M_min, 3 both"),
+        *encoder(guide),
+        *friction(guide),
     ):
         table.add_row(*row)
     return table
+
+
+def encoder(guide: Guide) -> list[tuple[str, str, str]]:
+    """Rows of the summary on the encoder."""
+    count = guide.quantization
+    if count is None:
+        return []
+    share = f"{number(count.share)} of dry friction, advised ≤ 1" if guide.friction else "no dry friction takes it"
+    return [
+        ("velocity of a count", number(count.velocity), f"m/s, for a count of {number(count.resolution)} m"),
+        ("force of a count", number(count.step), "N"),
+        ("force of the readings", number(count.force), f"N at most; {share}"),
+    ]
+
+
+def friction(guide: Guide) -> list[tuple[str, str, str]]:
+    """Rows of the summary on dry friction."""
+    at = guide.worst_sliding
+    if at is None:
+        return []
+    rows = [
+        (
+            "slips",
+            " and ".join(between(speeds) for speeds in at.slips) or "never",
+            "by itself, where steady motion grows",
+        ),
+        (
+            "smooth above",
+            number(1e3 * at.smooth_above),
+            "mm/s, where no swing lasts; below, a jolt or rest may begin one",
+        ),
+        ("least slope", number(at.least_slope), f"N·s/m of friction; the loop holds {number(at.least_held)}"),
+        ("smooth K", number(at.K_smooth), "N·s/m, from which on no speed slips by itself"),
+    ]
+    if at.speed is not None:
+        rows.append((f"at {number(1e3 * at.speed)} mm/s", str(at.verdict), f"M = {number(at.M)} kg"))
+    return rows
 
 
 def document(guide: Guide) -> dict[str, Any]:
@@ -113,6 +195,7 @@ def document(guide: Guide) -> dict[str, Any]:
         "gain_margin": guide.gain_margin,
         "lowering_margin": guide.lowering_margin,
         "k_h_limit": guide.k_h_limit,
+        "warnings": warnings(guide),
     }
     converted: dict[str, Any] = finite(whole)
     return converted
