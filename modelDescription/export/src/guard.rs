@@ -41,37 +41,46 @@ pub unsafe fn guard<M: Model, F: Call>(
         )))
     });
 
-    let Err(failure) = outcome else {
-        return Status::Ok;
-    };
+    match outcome {
+        Ok(()) => Status::Ok,
+        Err(failure) => failed(instance, function, failure),
+    }
+}
+
+/// Logs why a call failed, and marks an instance whose model broke.
+#[cold]
+fn failed<M: Model, F: Call>(
+    instance: &mut Instance<M>,
+    function: F,
+    failure: Failure,
+) -> Status {
+    let name = function.name();
     // Logging calls the importer and allocates; neither may let a panic out.
     let _ = catch_unwind(AssertUnwindSafe(|| match failure {
-        Failure::Refused(reason) => instance
-            .log()
-            .error(format_args!("{}: {reason}", function.name())),
+        Failure::Refused(reason) => instance.log().error(format_args!("{name}: {reason}")),
         Failure::Broken(reason) => {
             instance.enter_error();
             instance.log().error(format_args!(
-                "{}: {reason}; the instance needs {}",
-                function.name(),
-                F::WAYS_OUT
+                "{name}: {reason}; the instance needs {}",
+                function.words().ways_out
             ));
         }
     }));
     Status::Error
 }
 
+#[cold]
 fn not_legal<F: Call>(function: F, state: F::State) -> String {
     let mut text = format!(
         "not legal in the phase '{}', expected ",
-        F::state_name(state)
+        function.state_name(state)
     );
     for (i, &legal) in function.legal_in().iter().enumerate() {
         let _ = write!(
             text,
             "{}'{}'",
             if i == 0 { "" } else { " or " },
-            F::state_name(legal)
+            function.state_name(legal)
         );
     }
     text

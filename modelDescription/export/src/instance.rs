@@ -2,12 +2,11 @@
 
 use crate::clock::Clock;
 use crate::failure::{Failure, Outcome};
-use crate::legality::Phase;
+use crate::legality::{Advance, Phase};
 use crate::log::{self, Category, Enabled, Log, Sink};
 use crate::model::Model;
 use crate::outputs::Outputs;
 use crate::snapshot::Snapshot;
-use crate::time::Step;
 use std::ffi::{CStr, CString};
 use std::path::PathBuf;
 
@@ -197,24 +196,10 @@ impl<M: Model> Instance<M> {
         Ok(())
     }
 
-    /// fmi2DoStep, fmi3DoStep
-    pub(crate) fn do_step(&mut self, t: f64, h: f64) -> Outcome {
-        let step = self.now.clock.step(t, h)?;
-        self.advance(step)
-    }
-
-    /// fmi3ActivateModelPartition: the sample at `t` (s), and what holds until the next one is due.
-    pub(crate) fn activate(&mut self, t: f64) -> Outcome {
-        let period = M::DESCRIPTION.experiment.step;
-        let step = self.now.clock.step(t, period);
-        let expected = self.now.clock.time();
-        let step = step.map_err(|_| {
-            format!("activationTime = {t:?} s, expected {expected:?} s: the clock is activated every {period:?} s")
-        })?;
-        self.advance(step)
-    }
-
-    fn advance(&mut self, step: Step) -> Outcome {
+    /// fmi2DoStep, fmi3DoStep, fmi3ActivateModelPartition: the step from `t` of `h` (s).
+    pub(crate) fn step(&mut self, function: Advance, t: f64, h: f64) -> Outcome {
+        let step = self.now.clock.step(t, h);
+        let step = step.map_err(|reason| self.not_next(function, t, h, reason))?;
         self.now.model.accepts(&step).map_err(|refusal| refusal.0)?;
         let (model, mut log) = self.model_and_log();
         model
@@ -225,6 +210,18 @@ impl<M: Model> Instance<M> {
             .map_err(Failure::Broken)?;
         self.now.clock.advance(&step);
         Ok(())
+    }
+
+    /// Why a step cannot follow, in the words of the function.
+    #[cold]
+    fn not_next(&self, function: Advance, t: f64, h: f64, reason: String) -> String {
+        match function {
+            Advance::fmi2DoStep | Advance::fmi3DoStep => reason,
+            Advance::fmi3ActivateModelPartition => format!(
+                "activationTime = {t:?} s, expected {:?} s: the clock is activated every {h:?} s",
+                self.now.clock.time()
+            ),
+        }
     }
 
     /// fmi2SetFMUstate, fmi3SetFMUState
@@ -255,8 +252,8 @@ pub(crate) fn instance_name(name: Option<&str>) -> CString {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Refusal;
     use crate::access::Value;
+    use crate::{Refusal, Step};
     use fmu_declaration::Variability::Continuous;
     use fmu_declaration::{Declare, Description, Experiment, Stepping, real, unit};
 

@@ -11,12 +11,16 @@
 //!   too (the standard: not there), where the last successful time is what one wants to know; the other status functions
 //!   and `fmi2CancelStep` (the standard: while a step is pending only) are refused anyway, with what is not supported.
 
-use super::{Call, Phase, table};
+use super::{Call, Phase, Words, table};
+
+/// What this version of the standard calls so.
+pub(super) const WORDS: Words = Words {
+    fmu_state: "FMUstate",
+    ways_out: "fmi2Reset, fmi2SetFMUstate or fmi2FreeInstance",
+};
 
 impl Call for Function {
     type State = Phase;
-    const FMU_STATE: &'static str = "FMUstate";
-    const WAYS_OUT: &'static str = "fmi2Reset, fmi2SetFMUstate or fmi2FreeInstance";
 
     #[inline]
     fn name(self) -> &'static str {
@@ -33,8 +37,12 @@ impl Call for Function {
         phase
     }
 
-    fn state_name(state: Phase) -> &'static str {
+    fn state_name(self, state: Phase) -> &'static str {
         state.name()
+    }
+
+    fn words(self) -> Words {
+        WORDS
     }
 }
 

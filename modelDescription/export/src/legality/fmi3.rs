@@ -16,7 +16,7 @@
 //! * Get is accepted after Set without a step or an activation between them, and shows what was set;
 //! * `fmi3DoStep` past a defined stop time is made, as by FMI 2.0.
 
-use super::{Call, Phase, table};
+use super::{Call, Phase, Words, table};
 
 /// Where an instance is in its life, in the words of FMI 3.0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -46,10 +46,14 @@ impl State {
     }
 }
 
+/// What this version of the standard calls so.
+pub(super) const WORDS: Words = Words {
+    fmu_state: "FMUState",
+    ways_out: "fmi3Reset, fmi3SetFMUState or fmi3FreeInstance",
+};
+
 impl Call for Function {
     type State = State;
-    const FMU_STATE: &'static str = "FMUState";
-    const WAYS_OUT: &'static str = "fmi3Reset, fmi3SetFMUState or fmi3FreeInstance";
 
     #[inline]
     fn name(self) -> &'static str {
@@ -72,8 +76,12 @@ impl Call for Function {
         }
     }
 
-    fn state_name(state: State) -> &'static str {
+    fn state_name(self, state: State) -> &'static str {
         state.name()
+    }
+
+    fn words(self) -> Words {
+        WORDS
     }
 }
 

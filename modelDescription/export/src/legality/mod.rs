@@ -7,10 +7,6 @@ pub mod fmi3;
 pub trait Call: Copy {
     /// The states that its version of the standard knows.
     type State: Copy + PartialEq + 'static;
-    /// What the standard calls the argument that is an FMU state.
-    const FMU_STATE: &'static str;
-    /// The functions that lead out of the error phase, in words.
-    const WAYS_OUT: &'static str;
 
     /// Its C name.
     fn name(self) -> &'static str;
@@ -22,7 +18,70 @@ pub trait Call: Copy {
     fn state(phase: Phase, scheduled: bool) -> Self::State;
 
     /// The state's name as in the standard.
-    fn state_name(state: Self::State) -> &'static str;
+    fn state_name(self, state: Self::State) -> &'static str;
+
+    /// What the version of the standard calls differently.
+    fn words(self) -> Words;
+}
+
+/// What the versions of the standard call differently.
+#[derive(Clone, Copy, Debug)]
+pub struct Words {
+    /// The argument that is an FMU state.
+    pub fmu_state: &'static str,
+    /// The functions that lead out of the error phase.
+    pub ways_out: &'static str,
+}
+
+/// The functions that advance the time, which have one step behind them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[allow(non_camel_case_types, reason = "the C names of the standards")]
+pub enum Advance {
+    /// `fmi2DoStep`
+    fmi2DoStep,
+    /// `fmi3DoStep`
+    fmi3DoStep,
+    /// `fmi3ActivateModelPartition`
+    fmi3ActivateModelPartition,
+}
+
+impl Call for Advance {
+    type State = (Phase, bool);
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::fmi2DoStep => fmi2::Function::fmi2DoStep.name(),
+            Self::fmi3DoStep => fmi3::Function::fmi3DoStep.name(),
+            Self::fmi3ActivateModelPartition => fmi3::Function::fmi3ActivateModelPartition.name(),
+        }
+    }
+
+    #[inline]
+    fn legal_in(self) -> &'static [(Phase, bool)] {
+        match self {
+            Self::fmi2DoStep | Self::fmi3DoStep => &[(Phase::StepComplete, false)],
+            Self::fmi3ActivateModelPartition => &[(Phase::StepComplete, true)],
+        }
+    }
+
+    #[inline]
+    fn state(phase: Phase, scheduled: bool) -> (Phase, bool) {
+        (phase, scheduled)
+    }
+
+    fn state_name(self, (phase, scheduled): (Phase, bool)) -> &'static str {
+        match self {
+            Self::fmi2DoStep => phase.name(),
+            _ => fmi3::Function::state(phase, scheduled).name(),
+        }
+    }
+
+    fn words(self) -> Words {
+        match self {
+            Self::fmi2DoStep => fmi2::WORDS,
+            _ => fmi3::WORDS,
+        }
+    }
 }
 
 /// Where an instance is in its life.
@@ -81,3 +140,37 @@ macro_rules! table {
     };
 }
 pub(crate) use table;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_advances_the_time_is_legal_where_the_tables_say() {
+        for scheduled in [false, true] {
+            for phase in [
+                Phase::Instantiated,
+                Phase::InitializationMode,
+                Phase::StepComplete,
+                Phase::Terminated,
+                Phase::Error,
+            ] {
+                let step = fmi3::Function::state(phase, scheduled);
+                let by_table = |function: fmi3::Function| function.legal_in().contains(&step);
+                let here = |advance: Advance| advance.legal_in().contains(&(phase, scheduled));
+                assert_eq!(
+                    here(Advance::fmi3DoStep),
+                    by_table(fmi3::Function::fmi3DoStep)
+                );
+                assert_eq!(
+                    here(Advance::fmi3ActivateModelPartition),
+                    by_table(fmi3::Function::fmi3ActivateModelPartition)
+                );
+                if !scheduled {
+                    let by_table = fmi2::Function::fmi2DoStep.legal_in().contains(&phase);
+                    assert_eq!(here(Advance::fmi2DoStep), by_table);
+                }
+            }
+        }
+    }
+}

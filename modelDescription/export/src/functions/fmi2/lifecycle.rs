@@ -89,9 +89,3 @@ pub unsafe fn setup_experiment<M: Model>(
         })
     }
 }
-
-/// fmi2DoStep
-pub unsafe fn do_step<M: Model>(c: Component, t: Real, h: Real, _no_set_prior: Boolean) -> Status {
-    // SAFETY: the importer's contract.
-    unsafe { guard::<M, _>(c, F::fmi2DoStep, |instance| instance.do_step(t, h)) }
-}

@@ -1,10 +1,11 @@
 //! Steps: sections 4.2 and 5.2.
 
 use crate::ffi::fmi3::*;
-use crate::functions::known;
+use crate::functions::{known, step};
 use crate::guard::guard;
-use crate::instance::refused;
+use crate::instance::{Instance, refused};
 use crate::kind::CLOCK;
+use crate::legality::Advance;
 use crate::legality::fmi3::Function as F;
 use crate::model::Model;
 
@@ -19,21 +20,27 @@ pub unsafe fn do_step<M: Model>(
     early_return: *mut Boolean,
     last_successful_time: *mut Float64,
 ) -> Status {
-    // SAFETY: the importer's contract.
+    // SAFETY: the importer's contract. A step that was made was made by an instance.
     unsafe {
-        guard::<M, _>(c, F::fmi3DoStep, |instance| {
-            let event_handling_needed =
+        let (Some(event), Some(terminate), Some(early), Some(last)) = (
+            event_handling_needed.as_mut(),
+            terminate_simulation.as_mut(),
+            early_return.as_mut(),
+            last_successful_time.as_mut(),
+        ) else {
+            return guard::<M, _>(c, F::fmi3DoStep, |_| {
                 known(event_handling_needed.as_mut(), "eventHandlingNeeded")?;
-            let terminate_simulation = known(terminate_simulation.as_mut(), "terminateSimulation")?;
-            let early_return = known(early_return.as_mut(), "earlyReturn")?;
-            let last_successful_time = known(last_successful_time.as_mut(), "lastSuccessfulTime")?;
-            instance.do_step(t, h)?;
-            *event_handling_needed = 0;
-            *terminate_simulation = 0;
-            *early_return = 0;
-            *last_successful_time = instance.now.clock.time();
-            Ok(())
-        })
+                known(terminate_simulation.as_mut(), "terminateSimulation")?;
+                known(early_return.as_mut(), "earlyReturn")?;
+                known(last_successful_time.as_mut(), "lastSuccessfulTime").map(|_| ())
+            });
+        };
+        let status = step::<M>(c, Advance::fmi3DoStep, t, h);
+        if status == Status::Ok {
+            (*event, *terminate, *early) = (0, 0, 0);
+            *last = (*c.cast::<Instance<M>>()).now.clock.time();
+        }
+        status
     }
 }
 
@@ -45,13 +52,14 @@ pub unsafe fn activate_model_partition<M: Model>(
 ) -> Status {
     // SAFETY: the importer's contract.
     unsafe {
-        guard::<M, _>(c, F::fmi3ActivateModelPartition, |instance| {
-            if clock != CLOCK {
-                return refused(format!(
+        if clock != CLOCK {
+            return guard::<M, _>(c, F::fmi3ActivateModelPartition, |_| {
+                refused(format!(
                     "clockReference = {clock}, expected {CLOCK}, that of the variable clock"
-                ));
-            }
-            instance.activate(t)
-        })
+                ))
+            });
+        }
+        let period = M::DESCRIPTION.experiment.step;
+        step::<M>(c, Advance::fmi3ActivateModelPartition, t, period)
     }
 }
