@@ -1,8 +1,8 @@
 //! One instance of a model: life cycle, steps, FMU state. Access to variables is in [`crate::access`].
 
-use crate::clock::Clock;
+use crate::clock::{Clock, NotNext};
 use crate::failure::{Failure, Outcome};
-use crate::legality::{Advance, Phase};
+use crate::legality::{Interface, Phase};
 use crate::log::{self, Category, Enabled, Log, Sink};
 use crate::model::Model;
 use crate::outputs::Outputs;
@@ -16,8 +16,7 @@ pub struct Instance<M: Model> {
     name: CString,
     enabled: Enabled,
     resources: Option<PathBuf>,
-    /// Whether the importer activates the clock, by FMI 3.0, instead of making steps.
-    scheduled: bool,
+    interface: Interface,
     /// What an FMU state holds.
     pub(crate) now: Snapshot<M>,
     /// In Initialization Mode: something was set since the model was last initialized.
@@ -34,7 +33,7 @@ impl<M: Model> Instance<M> {
         name: CString,
         enabled: Enabled,
         resources: Option<PathBuf>,
-        scheduled: bool,
+        interface: Interface,
     ) -> Self {
         let now = Snapshot {
             phase: Phase::Instantiated,
@@ -46,7 +45,7 @@ impl<M: Model> Instance<M> {
             name,
             enabled,
             resources,
-            scheduled,
+            interface,
             now,
             stale: false,
             outputs: Outputs::new(),
@@ -61,9 +60,9 @@ impl<M: Model> Instance<M> {
         self.now.phase
     }
 
-    /// Whether the importer activates the clock instead of making steps.
-    pub fn is_scheduled(&self) -> bool {
-        self.scheduled
+    /// What is called on it.
+    pub fn interface(&self) -> Interface {
+        self.interface
     }
 
     pub(crate) fn enter_error(&mut self) {
@@ -197,9 +196,11 @@ impl<M: Model> Instance<M> {
     }
 
     /// fmi2DoStep, fmi3DoStep, fmi3ActivateModelPartition: the step from `t` of `h` (s).
-    pub(crate) fn step(&mut self, function: Advance, t: f64, h: f64) -> Outcome {
-        let step = self.now.clock.step(t, h);
-        let step = step.map_err(|reason| self.not_next(function, t, h, reason))?;
+    pub(crate) fn step(&mut self, t: f64, h: f64) -> Outcome {
+        let step = match self.now.clock.next(t, h) {
+            Ok(step) => step,
+            Err(why) => return Err(self.not_next(why, t, h)),
+        };
         self.now.model.accepts(&step).map_err(|refusal| refusal.0)?;
         let (model, mut log) = self.model_and_log();
         model
@@ -214,14 +215,15 @@ impl<M: Model> Instance<M> {
 
     /// Why a step cannot follow, in the words of the function.
     #[cold]
-    fn not_next(&self, function: Advance, t: f64, h: f64, reason: String) -> String {
-        match function {
-            Advance::fmi2DoStep | Advance::fmi3DoStep => reason,
-            Advance::fmi3ActivateModelPartition => format!(
-                "activationTime = {t:?} s, expected {:?} s: the clock is activated every {h:?} s",
-                self.now.clock.time()
-            ),
-        }
+    fn not_next(&self, why: NotNext, t: f64, h: f64) -> Failure {
+        let clock = &self.now.clock;
+        Failure::Refused(match self.interface {
+            Interface::Fmi2 | Interface::CoSimulation => clock.sentence(why, t, h),
+            Interface::ScheduledExecution => {
+                let expected = clock.time();
+                format!("activationTime = {t:?} s, expected {expected:?} s: the clock is activated every {h:?} s")
+            }
+        })
     }
 
     /// fmi2SetFMUstate, fmi3SetFMUState

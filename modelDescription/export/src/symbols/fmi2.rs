@@ -16,7 +16,7 @@ macro_rules! export_fmi2 {
             // functions ask for; each symbol is defined once, because this macro is expanded once per library.
             use $crate::ffi::fmi2::*;
             use $crate::functions::{self, fmi2::{self, kind}};
-            use $crate::legality::{Advance, fmi2::Function};
+            use $crate::legality::fmi2::Function;
             type Model = $model;
 
             $crate::export_fmi2! { @ functions
@@ -63,7 +63,7 @@ macro_rules! export_fmi2 {
                 fn fmi2GetRealOutputDerivatives(c: Component, _vr: *const ValueReference, _n: usize, _order: *const Integer, _value: *mut Real) -> Status
                     { functions::unsupported::<Model>(c, Function::fmi2GetRealOutputDerivatives, "maxOutputDerivativeOrder is 0") }
                 fn fmi2DoStep(c: Component, t: Real, h: Real, _no_set_prior: Boolean) -> Status
-                    { functions::step::<Model>(c, Advance::fmi2DoStep, t, h) }
+                    { functions::step::<Model>(c, t, h) }
                 fn fmi2CancelStep(c: Component) -> Status
                     { functions::unsupported::<Model>(c, Function::fmi2CancelStep, "canRunAsynchronuously is false") }
                 fn fmi2GetStatus(c: Component, _kind: StatusKind, _value: *mut Integer) -> Status
