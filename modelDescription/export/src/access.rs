@@ -126,9 +126,8 @@ pub(crate) fn check<M: Model>(model: &M, causality: Causality) -> Result<(), Ref
         let objection = match &row.access {
             Access::Real { at, .. } => first(model, at, row),
             Access::Integer { at, .. } | Access::Enumeration { at, .. } => first(model, at, row),
-            Access::Boolean { at } => {
-                (0..row.len).find_map(|i| Some((i, boolean(at.word(model, i)).err()?.objection(row))))
-            }
+            Access::Boolean { at } => (0..row.len)
+                .find_map(|i| Some((i, boolean(at.word(model, i)).err()?.objection(row)))),
             Access::String { .. } => None,
         };
         if let Some((i, objection)) = objection {
@@ -244,7 +243,7 @@ impl<M: Model> Instance<M> {
         let (name, value) = match Provenance::find(reference) {
             Some(of) => (of.name(), K::Value::of_text(text(of))),
             None if reference == TIME && !K::SCALAR => {
-                ("time", K::Value::of_time(self.now.clock.time()))
+                ("time", K::Value::of_time(self.time()))
             }
             None => return unknown::<_, M>(reference),
         };

@@ -186,9 +186,8 @@ pub unsafe fn set_string<M: Model>(
         guard::<M, _>(c, F::fmi3SetString, |instance| {
             let vr = references::<M, kind::Text>(instance, vr, n, n_values)?;
             let values = known(array(values, n_values), "values")?;
-            instance.set::<kind::Text, _>(vr, |i| {
-                string(values[i]).map(str::to_owned).ok_or(NoText)
-            })
+            instance
+                .set::<kind::Text, _>(vr, |i| string(values[i]).map(str::to_owned).ok_or(NoText))
         })
     }
 }
