@@ -119,7 +119,9 @@ fn python() -> Outcome {
     let venv = Venv::ready(Packages::Test)?;
     let ruff = |arguments: &[&str]| {
         let mut ruff = venv.command(["-m", "ruff"]);
-        run(ruff.args(arguments).args(["harness", "tests/system", "benches"]))
+        run(ruff
+            .args(arguments)
+            .args(["harness", "tests/system", "benches"]))
     };
     ruff(&["check"])?;
     ruff(&["format", "--check"])?;

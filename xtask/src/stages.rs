@@ -91,9 +91,7 @@ pub fn bench() -> Outcome {
         run(&mut cargo(["bench", "--locked", "--package", "abi"]))
     })?;
     stage("native", || native(Packages::Test))?;
-    stage("engines", || {
-        run(&mut venv.command(["benches/engines.py"]))
-    })?;
+    stage("engines", || run(&mut venv.command(["benches/engines.py"])))?;
     stage("arm benchmark", || {
         run(&mut venv.command(["tests/system/oracles/benchmark.py"]))
     })

@@ -3,19 +3,15 @@
 use crate::failure::{Failure, Outcome};
 use crate::ffi::ValueReference;
 use crate::instance::{Instance, refused};
+use crate::kind::{Kind, TIME};
 use crate::legality::Phase;
 use crate::model::{Model, Refusal};
 use crate::provenance::text;
-use fmu_declaration::{Access, Causality, Of, Place, Provenance, Range, Variable};
+use fmu_declaration::{Access, Causality, Enumeration, Place, Provenance, Variable};
+use std::convert::Infallible;
 
-/// A type of the interface: its name, and what a row demands of a value.
+/// A value of the interface, and what a row demands of it.
 pub trait Value: fmu_declaration::Value {
-    /// Name in the standard.
-    const TYPE: &'static str;
-
-    /// Where the row's values are, if the row is of this type.
-    fn at<M>(access: &Access<M>) -> Option<&Place<M, Self>>;
-
     /// What is wrong with the value, if anything.
     fn objection<M>(&self, row: &Variable<M>) -> Option<String>;
 
@@ -23,15 +19,14 @@ pub trait Value: fmu_declaration::Value {
     fn of_text(_: &'static str) -> Option<Self> {
         None
     }
+
+    /// A time (s) as a value, if this is the type for times.
+    fn of_time(_: f64) -> Option<Self> {
+        None
+    }
 }
 
 impl Value for f64 {
-    const TYPE: &'static str = "Real";
-
-    fn at<M>(access: &Access<M>) -> Option<&Place<M, Self>> {
-        Self::of(access)
-    }
-
     #[inline]
     fn objection<M>(&self, row: &Variable<M>) -> Option<String> {
         let Access::Real { unit, range, .. } = &row.access else {
@@ -42,11 +37,15 @@ impl Value for f64 {
         }
         Some(out_of_range(*self, unit.name, range))
     }
+
+    fn of_time(time: f64) -> Option<Self> {
+        Some(time)
+    }
 }
 
 #[cold]
-fn out_of_range(value: f64, unit: &str, range: &Range) -> String {
-    let Range { low, high, .. } = range;
+fn out_of_range(value: f64, unit: &str, range: &fmu_declaration::Range) -> String {
+    let fmu_declaration::Range { low, high, .. } = range;
     if value.is_finite() {
         format!("= {value} {unit}, expected a value from {low} to {high}")
     } else {
@@ -55,53 +54,40 @@ fn out_of_range(value: f64, unit: &str, range: &Range) -> String {
 }
 
 impl Value for i32 {
-    const TYPE: &'static str = "Integer";
-
-    fn at<M>(access: &Access<M>) -> Option<&Place<M, Self>> {
-        Self::of(access)
-    }
-
     fn objection<M>(&self, row: &Variable<M>) -> Option<String> {
         match &row.access {
             Access::Integer { min, max, .. } if self < min || self > max => {
                 Some(format!("= {self}, expected a value from {min} to {max}"))
             }
             Access::Enumeration { of, .. } if !of.items.iter().any(|item| item.value == *self) => {
-                let items: Vec<_> = of
-                    .items
-                    .iter()
-                    .map(|item| format!("{} {}", item.value, item.name))
-                    .collect();
-                Some(format!(
-                    "= {self}, expected an item of {}: {}",
-                    of.name,
-                    items.join(", ")
-                ))
+                Some(no_item((*self).into(), of))
             }
             _ => None,
         }
     }
 }
 
+#[cold]
+fn no_item(value: i64, of: &Enumeration) -> String {
+    let items: Vec<_> = of
+        .items
+        .iter()
+        .map(|item| format!("{} {}", item.value, item.name))
+        .collect();
+    format!(
+        "= {value}, expected an item of {}: {}",
+        of.name,
+        items.join(", ")
+    )
+}
+
 impl Value for bool {
-    const TYPE: &'static str = "Boolean";
-
-    fn at<M>(access: &Access<M>) -> Option<&Place<M, Self>> {
-        Self::of(access)
-    }
-
     fn objection<M>(&self, _: &Variable<M>) -> Option<String> {
         None
     }
 }
 
 impl Value for String {
-    const TYPE: &'static str = "String";
-
-    fn at<M>(access: &Access<M>) -> Option<&Place<M, Self>> {
-        Self::of(access)
-    }
-
     fn objection<M>(&self, _: &Variable<M>) -> Option<String> {
         None
     }
@@ -140,9 +126,8 @@ pub(crate) fn check<M: Model>(model: &M, causality: Causality) -> Result<(), Ref
         let objection = match &row.access {
             Access::Real { at, .. } => first(model, at, row),
             Access::Integer { at, .. } | Access::Enumeration { at, .. } => first(model, at, row),
-            Access::Boolean { at } => {
-                (0..row.len).find_map(|i| Some((i, boolean(at.word(model, i)).err()?.to_string())))
-            }
+            Access::Boolean { at } => (0..row.len)
+                .find_map(|i| Some((i, boolean(at.word(model, i)).err()?.objection(row)))),
             Access::String { .. } => None,
         };
         if let Some((i, objection)) = objection {
@@ -153,21 +138,49 @@ pub(crate) fn check<M: Model>(model: &M, causality: Causality) -> Result<(), Ref
 }
 
 /// What was given for a value and is none.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum NoValue {
-    /// A Boolean other than 0 and 1. 0x100 may be a word that nobody wrote, and `engage` must not be on then. The C library
-    /// says the same.
-    Word(i32),
-    /// A pointer that is null, or text in another encoding.
-    Text,
+pub(crate) trait NoValue {
+    /// What is wrong with it as a value of this row.
+    fn objection<M>(self, row: &Variable<M>) -> String;
 }
 
-impl core::fmt::Display for NoValue {
-    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        match self {
-            Self::Word(word) => write!(f, "= {word}, expected 0 or 1"),
-            Self::Text => f.write_str("is null or not UTF-8, expected a UTF-8 string"),
+/// Where all that can be given is a value.
+impl NoValue for Infallible {
+    fn objection<M>(self, _: &Variable<M>) -> String {
+        match self {}
+    }
+}
+
+/// A Boolean other than 0 and 1. 0x100 may be a word that nobody wrote, and `engage` must not be on then. The C library
+/// says the same.
+pub(crate) struct Word(i32);
+
+impl NoValue for Word {
+    #[cold]
+    fn objection<M>(self, _: &Variable<M>) -> String {
+        format!("= {}, expected 0 or 1", self.0)
+    }
+}
+
+/// An integer that is no item of any enumeration: too large.
+pub(crate) struct TooLarge(pub i64);
+
+impl NoValue for TooLarge {
+    #[cold]
+    fn objection<M>(self, row: &Variable<M>) -> String {
+        match &row.access {
+            Access::Enumeration { of, .. } => no_item(self.0, of),
+            _ => format!("= {}, expected an item", self.0),
         }
+    }
+}
+
+/// A pointer that is null, or text in another encoding.
+pub(crate) struct NoText;
+
+impl NoValue for NoText {
+    #[cold]
+    fn objection<M>(self, _: &Variable<M>) -> String {
+        "is null or not UTF-8, expected a UTF-8 string".into()
     }
 }
 
@@ -175,28 +188,16 @@ impl core::fmt::Display for NoValue {
 ///
 /// # Errors
 /// It stands for none.
-pub(crate) fn boolean(word: i32) -> Result<bool, NoValue> {
+pub(crate) fn boolean(word: i32) -> Result<bool, Word> {
     match word {
         0 => Ok(false),
         1 => Ok(true),
-        _ => Err(NoValue::Word(word)),
+        _ => Err(Word(word)),
     }
 }
 
 /// Why what the model computes is refused.
 const COMPUTED: &str = "is computed by the model: it cannot be set";
-
-/// The text of a variable that says what the library was built from; an error where `reference` is none of them.
-#[cold]
-fn constant<M: Model, V: Value>(reference: ValueReference) -> Result<V, Failure> {
-    match Provenance::find(reference) {
-        None => unknown::<_, M>(reference),
-        Some(of) => match V::of_text(text(of)) {
-            Some(value) => Ok(value),
-            None => another_type::<_, V>(of.name(), reference),
-        },
-    }
-}
 
 #[cold]
 fn unknown<T, M: Model>(reference: ValueReference) -> Result<T, Failure> {
@@ -207,11 +208,19 @@ fn unknown<T, M: Model>(reference: ValueReference) -> Result<T, Failure> {
 }
 
 #[cold]
-fn another_type<T, V: Value>(name: &str, reference: ValueReference) -> Result<T, Failure> {
+fn another_type<T, K: Kind>(name: &str, reference: ValueReference) -> Result<T, Failure> {
     refused(format!(
         "{name} (value reference {reference}) is not of type {}",
-        V::TYPE
+        K::NAME
     ))
+}
+
+/// The row that a value reference stands for in the interface of `K`, and its first element.
+#[inline]
+fn find<K: Kind, M: Model>(reference: ValueReference) -> Option<(&'static Variable<M>, usize)> {
+    M::DESCRIPTION
+        .find(reference)
+        .filter(|&(_, element)| K::SCALAR || element == 0)
 }
 
 /// Why a variable cannot be set in this phase, if it cannot.
@@ -227,77 +236,124 @@ fn not_settable<M>(variable: &Variable<M>, phase: Phase) -> Option<&'static str>
 }
 
 impl<M: Model> Instance<M> {
-    /// fmi2GetReal, fmi2GetInteger, fmi2GetBoolean, fmi2GetString: calls `put(i, value)` for each reference.
-    pub(crate) fn get<V: Value>(
+    /// The value of a variable that has no row: what the library was built from, or the time. An error where `reference` is
+    /// none of them.
+    #[cold]
+    fn without_row<K: Kind>(&self, reference: ValueReference) -> Result<K::Value, Failure> {
+        let (name, value) = match Provenance::find(reference) {
+            Some(of) => (of.name(), K::Value::of_text(text(of))),
+            None if reference == TIME && !K::SCALAR => ("time", K::Value::of_time(self.time())),
+            None => return unknown::<_, M>(reference),
+        };
+        value.map_or_else(|| another_type::<_, K>(name, reference), Ok)
+    }
+
+    /// How many values the references stand for.
+    ///
+    /// # Errors
+    /// The first that stands for none, or for values of another type.
+    pub(crate) fn count<K: Kind>(&self, references: &[ValueReference]) -> Result<usize, Failure> {
+        let mut count = 0;
+        for &reference in references {
+            count += match find::<K, M>(reference) {
+                Some((row, _)) if K::at(&row.access).is_some() => K::len(row),
+                Some((row, element)) => {
+                    return another_type::<_, K>(&shown::<K, M>(row, element), reference);
+                }
+                None => self.without_row::<K>(reference).map(|_| 1)?,
+            };
+        }
+        Ok(count)
+    }
+
+    /// The functions that get: calls `put(i, value)` for each value, in the order of the references.
+    pub(crate) fn get<K: Kind>(
         &mut self,
         references: &[ValueReference],
-        mut put: impl FnMut(usize, V),
+        mut put: impl FnMut(usize, K::Value),
     ) -> Outcome {
         if self.now.phase == Phase::InitializationMode {
             // All are looked up before anything is computed: a refused Get changes nothing.
-            for &reference in references {
-                match M::DESCRIPTION.find(reference) {
-                    Some((row, element)) if V::at(&row.access).is_none() => {
-                        return another_type::<_, V>(&row.element_name(element), reference);
-                    }
-                    Some(_) => {}
-                    None => drop(constant::<M, V>(reference)?),
-                }
-            }
-            // What cannot be initialized yet still shows its values; fmi2ExitInitializationMode says what is wrong.
+            self.count::<K>(references)?;
+            // What cannot be initialized yet still shows its values; leaving Initialization Mode says what is wrong.
             let _ = self.initialize();
         }
+        let mut next = 0;
         for (i, &reference) in references.iter().enumerate() {
-            match M::DESCRIPTION.find(reference) {
-                Some((variable, element)) => match V::at(&variable.access) {
-                    Some(at) => put(i, at.get(&self.now.model, element)),
-                    None => {
-                        return another_type::<_, V>(&variable.element_name(element), reference);
-                    }
-                },
-                None => put(i, constant::<M, V>(reference)?),
-            }
+            let first = if K::SCALAR { i } else { next };
+            let Some((row, element)) = find::<K, M>(reference) else {
+                put(first, self.without_row::<K>(reference)?);
+                next = first + 1;
+                continue;
+            };
+            let Some(at) = K::at(&row.access) else {
+                return another_type::<_, K>(&shown::<K, M>(row, element), reference);
+            };
+            K::visit(row, element, first, |element, i| {
+                put(i, at.get(&self.now.model, element));
+                None::<()>
+            });
+            next = first + K::len(row);
         }
         Ok(())
     }
 
-    /// fmi2SetReal, fmi2SetInteger, fmi2SetBoolean, fmi2SetString. `value(i)` is the i-th value, or why it is none. All
-    /// values are checked before the first is written.
-    pub(crate) fn set<V: Value>(
+    /// The functions that set. `value(i)` is the i-th value in the order of the references, or why it is none. All values
+    /// are checked before the first is written.
+    pub(crate) fn set<K: Kind, E: NoValue>(
         &mut self,
         references: &[ValueReference],
-        value: impl Fn(usize) -> Result<V, NoValue>,
+        value: impl Fn(usize) -> Result<K::Value, E>,
     ) -> Outcome {
         let phase = self.now.phase;
         let mut tuned = false;
+        let mut next = 0;
         for (i, &reference) in references.iter().enumerate() {
-            let Some((variable, element)) = M::DESCRIPTION.find(reference) else {
+            let Some((variable, element)) = find::<K, M>(reference) else {
                 return match Provenance::find(reference) {
                     Some(of) => refused(format!("{} {COMPUTED}", of.name())),
+                    None if reference == TIME && !K::SCALAR => {
+                        refused("time is the independent variable: it cannot be set".into())
+                    }
                     None => unknown::<_, M>(reference),
                 };
             };
-            if V::at(&variable.access).is_none() {
-                return another_type::<_, V>(&variable.element_name(element), reference);
+            if K::at(&variable.access).is_none() {
+                return another_type::<_, K>(&shown::<K, M>(variable, element), reference);
             }
-            let objection = match (not_settable(variable, phase), value(i)) {
-                (Some(reason), _) => Some(reason.to_owned()),
-                (None, Err(none)) => Some(none.to_string()),
-                (None, Ok(value)) => value.objection(variable),
-            };
-            if let Some(objection) = objection {
+            let first = if K::SCALAR { i } else { next };
+            next = first + K::len(variable);
+            let objection = K::visit(variable, element, first, |element, i| {
+                let objection = match (not_settable(variable, phase), value(i)) {
+                    (Some(reason), _) => Some(reason.to_owned()),
+                    (None, Err(none)) => Some(none.objection(variable)),
+                    (None, Ok(value)) => value.objection(variable),
+                };
+                objection.map(|objection| (element, objection))
+            });
+            if let Some((element, objection)) = objection {
                 return refused(format!("{} {objection}", variable.element_name(element)));
             }
             tuned |= variable.is_tunable();
         }
         let tuned_in_run = tuned && phase == Phase::StepComplete;
         let before = tuned_in_run.then(|| self.now.model.clone());
+        let mut next = 0;
         for (i, &reference) in references.iter().enumerate() {
-            let place = M::DESCRIPTION.find(reference);
-            let place = place.and_then(|(row, element)| Some((V::at(&row.access)?, element)));
-            if let (Some((at, element)), Ok(value)) = (place, value(i)) {
-                at.set(&mut self.now.model, element, value);
-            }
+            let Some((row, element)) = find::<K, M>(reference) else {
+                continue;
+            };
+            let first = if K::SCALAR { i } else { next };
+            next = first + K::len(row);
+            let Some(at) = K::at(&row.access) else {
+                continue;
+            };
+            K::visit(row, element, first, |element, i| {
+                if let Ok(value) = value(i) {
+                    at.set(&mut self.now.model, element, value);
+                }
+                None::<()>
+            });
         }
         self.stale |= phase == Phase::InitializationMode;
         if let Some(before) = before {
@@ -308,5 +364,15 @@ impl<M: Model> Instance<M> {
             }
         }
         Ok(())
+    }
+}
+
+/// The name of what a value reference stands for.
+#[cold]
+fn shown<K: Kind, M: Model>(row: &Variable<M>, element: usize) -> String {
+    if K::SCALAR {
+        row.element_name(element)
+    } else {
+        row.full_name().trim_end_matches("[i]").to_owned()
     }
 }

@@ -3,7 +3,7 @@
 use crate::failure::{Failure, Outcome};
 use crate::ffi::{Component, Status};
 use crate::instance::Instance;
-use crate::legality::{Function, Phase};
+use crate::legality::{Call, Interface};
 use crate::model::Model;
 use std::cell::RefCell;
 use std::fmt::Write as _;
@@ -11,14 +11,14 @@ use std::panic::{AssertUnwindSafe, PanicHookInfo, catch_unwind};
 use std::sync::Once;
 
 /// Runs `call` on the instance behind `component`, if that is legal now, with everything that can go wrong turned into
-/// a logged `fmi2Error`.
+/// a logged error.
 ///
 /// # Safety
-/// `component` is null or was returned by [`instantiate`](crate::functions::instantiate) for the same model, was not
-/// freed, and is used by no other thread during the call (the importer's contract, section 2.1.6).
-pub unsafe fn guard<M: Model>(
+/// `component` is null or was returned by one of the functions that instantiate the same model, was not freed, and is
+/// used by no other thread during the call (the importer's contract).
+pub unsafe fn guard<M: Model, F: Call>(
     component: Component,
-    function: Function,
+    function: F,
     call: impl FnOnce(&mut Instance<M>) -> Outcome,
 ) -> Status {
     // SAFETY: this function's contract.
@@ -27,8 +27,14 @@ pub unsafe fn guard<M: Model>(
     };
     // `#[repr(C)]` in Instance keeps nothing of it half-changed: refused calls change nothing, broken ones are marked.
     let outcome = catch_unwind(AssertUnwindSafe(|| {
-        if !function.is_legal_in(instance.phase()) {
-            return Err(Failure::Refused(not_legal(function, instance.phase())));
+        let state = F::state(instance.phase(), instance.interface());
+        // A function that is legal in no state says itself what is missing.
+        if !function.legal_in().contains(&state) && !function.legal_in().is_empty() {
+            return Err(Failure::Refused(not_legal(
+                function,
+                state,
+                instance.interface(),
+            )));
         }
         call(instance)
     }))
@@ -39,33 +45,44 @@ pub unsafe fn guard<M: Model>(
         )))
     });
 
-    let Err(failure) = outcome else {
-        return Status::Ok;
-    };
+    match outcome {
+        Ok(()) => Status::Ok,
+        Err(failure) => failed(instance, function, failure),
+    }
+}
+
+/// Logs why a call failed, and marks an instance whose model broke.
+#[cold]
+fn failed<M: Model, F: Call>(instance: &mut Instance<M>, function: F, failure: Failure) -> Status {
+    let (name, ways_out) = (
+        function.name(instance.interface()),
+        instance.interface().ways_out(),
+    );
     // Logging calls the importer and allocates; neither may let a panic out.
     let _ = catch_unwind(AssertUnwindSafe(|| match failure {
-        Failure::Refused(reason) => instance
-            .log()
-            .error(format_args!("{}: {reason}", function.name())),
+        Failure::Refused(reason) => instance.log().error(format_args!("{name}: {reason}")),
         Failure::Broken(reason) => {
             instance.enter_error();
             instance.log().error(format_args!(
-                "{}: {reason}; the instance needs fmi2Reset, fmi2SetFMUstate or fmi2FreeInstance",
-                function.name()
+                "{name}: {reason}; the instance needs {ways_out}"
             ));
         }
     }));
     Status::Error
 }
 
-fn not_legal(function: Function, phase: Phase) -> String {
-    let mut text = format!("not legal in the phase '{}', expected ", phase.name());
-    for (i, legal) in function.legal_in().iter().enumerate() {
+#[cold]
+fn not_legal<F: Call>(function: F, state: F::State, interface: Interface) -> String {
+    let mut text = format!(
+        "not legal in the phase '{}', expected ",
+        F::state_name(state, interface)
+    );
+    for (i, &legal) in function.legal_in().iter().enumerate() {
         let _ = write!(
             text,
             "{}'{}'",
             if i == 0 { "" } else { " or " },
-            legal.name()
+            F::state_name(legal, interface)
         );
     }
     text

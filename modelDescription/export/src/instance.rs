@@ -1,23 +1,22 @@
 //! One instance of a model: life cycle, steps, FMU state. Access to variables is in [`crate::access`].
 
-use crate::clock::Clock;
+use crate::clock::{Clock, NotNext};
 use crate::failure::{Failure, Outcome};
-use crate::ffi::{Callbacks, LAST_SUCCESSFUL_TIME, StatusKind, TERMINATED};
-use crate::legality::Phase;
-use crate::log::{self, Category, Enabled, Log};
+use crate::legality::{Interface, Phase};
+use crate::log::{self, Category, Enabled, Log, Sink};
 use crate::model::Model;
 use crate::outputs::Outputs;
-use crate::resource;
 use crate::snapshot::Snapshot;
 use std::ffi::{CStr, CString};
 use std::path::PathBuf;
 
 /// One instance.
 pub struct Instance<M: Model> {
-    callbacks: Callbacks,
+    sink: Sink,
     name: CString,
     enabled: Enabled,
     resources: Option<PathBuf>,
+    interface: Interface,
     /// What an FMU state holds.
     pub(crate) now: Snapshot<M>,
     /// In Initialization Mode: something was set since the model was last initialized.
@@ -28,12 +27,13 @@ pub struct Instance<M: Model> {
 }
 
 impl<M: Model> Instance<M> {
-    /// A new instance with start values.
+    /// A new instance with start values, whose resources are in the folder.
     pub(crate) fn new(
-        callbacks: Callbacks,
+        sink: Sink,
         name: CString,
         enabled: Enabled,
-        location: Option<&str>,
+        resources: Option<PathBuf>,
+        interface: Interface,
     ) -> Self {
         let now = Snapshot {
             phase: Phase::Instantiated,
@@ -41,22 +41,16 @@ impl<M: Model> Instance<M> {
             model: M::default(),
         };
         let mut instance = Self {
-            callbacks,
+            sink,
             name,
             enabled,
-            resources: None,
+            resources,
+            interface,
             now,
             stale: false,
             outputs: Outputs::new(),
             strings: Vec::new(),
         };
-        match location.map(resource::path) {
-            Some(Ok(path)) => instance.resources = Some(path),
-            Some(Err(reason)) => instance
-                .log()
-                .warning(format_args!("fmi2Instantiate: {reason}; ignored")),
-            None => {}
-        }
         instance.now.model.located(instance.resources.as_deref());
         instance
     }
@@ -66,23 +60,28 @@ impl<M: Model> Instance<M> {
         self.now.phase
     }
 
+    /// What is called on it.
+    pub fn interface(&self) -> Interface {
+        self.interface
+    }
+
     pub(crate) fn enter_error(&mut self) {
         self.now.phase = Phase::Error;
     }
 
     pub(crate) fn log(&self) -> Log<'_> {
-        Log::new(&self.callbacks, &self.name, self.enabled)
+        Log::new(&self.sink, &self.name, self.enabled)
     }
 
     /// The model with a log beside it.
     pub(crate) fn model_and_log(&mut self) -> (&mut M, Log<'_>) {
         (
             &mut self.now.model,
-            Log::new(&self.callbacks, &self.name, self.enabled),
+            Log::new(&self.sink, &self.name, self.enabled),
         )
     }
 
-    /// fmi2SetDebugLogging
+    /// fmi2SetDebugLogging, fmi3SetDebugLogging
     pub(crate) fn set_debug_logging<'a>(
         &mut self,
         on: bool,
@@ -113,7 +112,7 @@ impl<M: Model> Instance<M> {
         Ok(())
     }
 
-    /// fmi2SetupExperiment
+    /// fmi2SetupExperiment, and the arguments of fmi3EnterInitializationMode
     pub(crate) fn setup_experiment(
         &mut self,
         tolerance: Option<f64>,
@@ -139,14 +138,14 @@ impl<M: Model> Instance<M> {
         Ok(())
     }
 
-    /// fmi2EnterInitializationMode
+    /// fmi2EnterInitializationMode, fmi3EnterInitializationMode
     pub(crate) fn enter_initialization_mode(&mut self) -> Outcome {
         self.now.phase = Phase::InitializationMode;
         self.stale = true;
         Ok(())
     }
 
-    /// fmi2ExitInitializationMode
+    /// fmi2ExitInitializationMode, fmi3ExitInitializationMode
     pub(crate) fn exit_initialization_mode(&mut self) -> Outcome {
         self.initialize()?;
         self.now.phase = Phase::StepComplete;
@@ -173,7 +172,7 @@ impl<M: Model> Instance<M> {
         Ok(())
     }
 
-    /// fmi2Terminate
+    /// fmi2Terminate, fmi3Terminate
     pub(crate) fn terminate(&mut self) -> Outcome {
         self.now.phase = Phase::Terminated;
         let time = self.now.clock.time();
@@ -184,7 +183,7 @@ impl<M: Model> Instance<M> {
         Ok(())
     }
 
-    /// fmi2Reset
+    /// fmi2Reset, fmi3Reset
     pub(crate) fn reset(&mut self) -> Outcome {
         self.now = Snapshot {
             phase: Phase::Instantiated,
@@ -196,9 +195,12 @@ impl<M: Model> Instance<M> {
         Ok(())
     }
 
-    /// fmi2DoStep
-    pub(crate) fn do_step(&mut self, t: f64, h: f64) -> Outcome {
-        let step = self.now.clock.step(t, h)?;
+    /// fmi2DoStep, fmi3DoStep, fmi3ActivateModelPartition: the step from `t` of `h` (s).
+    pub(crate) fn step(&mut self, t: f64, h: f64) -> Outcome {
+        let step = match self.now.clock.next(t, h) {
+            Ok(step) => step,
+            Err(why) => return Err(self.not_next(why, t, h)),
+        };
         self.now.model.accepts(&step).map_err(|refusal| refusal.0)?;
         let (model, mut log) = self.model_and_log();
         model
@@ -211,27 +213,33 @@ impl<M: Model> Instance<M> {
         Ok(())
     }
 
-    /// fmi2GetRealStatus
-    pub(crate) fn real_status(&self, kind: StatusKind) -> Result<f64, Failure> {
-        match kind {
-            LAST_SUCCESSFUL_TIME => Ok(self.now.clock.time()),
-            _ => Err(Failure::Refused(format!(
-                "status kind {kind} is not supported, expected fmi2LastSuccessfulTime (2)"
-            ))),
+    /// The independent variable: the end of the last step, or the time of the last activation, to a rounding (s).
+    pub(crate) fn time(&self) -> f64 {
+        let clock = &self.now.clock;
+        match self.interface {
+            Interface::ScheduledExecution if clock.elapsed() > 0.0 => {
+                clock.time() - M::DESCRIPTION.experiment.step
+            }
+            _ => clock.time(),
         }
     }
 
-    /// fmi2GetBooleanStatus
-    pub(crate) fn boolean_status(&self, kind: StatusKind) -> Result<bool, Failure> {
-        match kind {
-            TERMINATED => Ok(false), // no model ends the run by itself
-            _ => Err(Failure::Refused(format!(
-                "status kind {kind} is not supported, expected fmi2Terminated (3)"
-            ))),
-        }
+    /// Why a step cannot follow, in the words of the function.
+    #[cold]
+    fn not_next(&self, why: NotNext, t: f64, h: f64) -> Failure {
+        let clock = &self.now.clock;
+        Failure::Refused(match self.interface {
+            Interface::Fmi2 | Interface::CoSimulation => clock.sentence(why, t, h),
+            Interface::ScheduledExecution => {
+                let expected = clock.time();
+                format!(
+                    "activationTime = {t:?} s, expected {expected:?} s: the clock is activated every {h:?} s"
+                )
+            }
+        })
     }
 
-    /// fmi2SetFMUstate
+    /// fmi2SetFMUstate, fmi3SetFMUState
     pub(crate) fn restore(&mut self, snapshot: &Snapshot<M>) -> Outcome {
         self.now = snapshot.clone();
         self.now.model.located(self.resources.as_deref());
