@@ -1,6 +1,8 @@
 //! The `.fmu` archive: the same bytes for the same contents, on any machine and day.
 
-use crate::{Component, Guide, Interface, document, header, licences, sbom, xml};
+use crate::{
+    Component, Guide, Interface, Standard, Terminal, document, header, licences, sbom, terminals,
+};
 use std::io::{Cursor, Write as _};
 use zip::result::ZipResult;
 use zip::write::{SimpleFileOptions, ZipWriter};
@@ -11,7 +13,7 @@ const PICTURE: &[u8] = include_bytes!("../model.png");
 /// A shared library for one platform.
 #[derive(Clone, Copy, Debug)]
 pub struct Binary<'a> {
-    /// Folder under `binaries/`: `linux64`, `win64`, …
+    /// Folder under `binaries/` as FMI 2.0 names it: `linux64`, `win64`, …
     pub platform: &'a str,
     /// File extension with its dot: `.so`, `.dll`, `.dylib`.
     pub extension: &'a str,
@@ -22,6 +24,8 @@ pub struct Binary<'a> {
 /// All that an archive is made from.
 #[derive(Clone, Copy, Debug)]
 pub struct Contents<'a> {
+    /// What it is for.
+    pub standard: Standard,
     /// The interface.
     pub interface: &'a Interface,
     /// Its libraries.
@@ -30,19 +34,23 @@ pub struct Contents<'a> {
     pub linked: &'a [Component],
     /// What the interface document says besides the rows.
     pub guide: Guide<'a>,
-    /// `model.png`, which importers show on the block.
+    /// The PNG that importers show on the block: `model.png`, in FMI 3.0 `terminalsAndIcons/icon.png`.
     pub icon: &'a [u8],
+    /// What is connected by one line, in FMI 3.0.
+    pub terminals: &'a [Terminal],
 }
 
 impl<'a> Contents<'a> {
     /// What follows from the interface alone: no library, nothing linked in, the icon of a control loop.
     pub fn of(interface: &'a Interface) -> Self {
         Self {
+            standard: Standard::Fmi2,
             interface,
             binaries: &[],
             linked: &[],
             guide: Guide::default(),
             icon: PICTURE,
+            terminals: &[],
         }
     }
 }
@@ -72,34 +80,45 @@ pub fn write(contents: &Contents<'_>) -> ZipResult<Vec<u8>> {
 /// Paths in ascending order, with contents; a folder's path ends in `/`.
 pub fn files(contents: &Contents<'_>) -> Vec<(String, Vec<u8>)> {
     let Contents {
+        standard,
         interface,
         binaries,
         linked,
         guide,
         icon,
+        terminals,
     } = *contents;
     let name = interface.name;
     let mut files = vec![
         (
             "modelDescription.xml".to_owned(),
-            xml(interface).into_bytes(),
+            standard.description(interface).into_bytes(),
         ),
-        ("model.png".to_owned(), icon.to_vec()),
         (
             "documentation/index.html".to_owned(),
-            document(interface, guide).into_bytes(),
+            document(interface, guide, standard).into_bytes(),
         ),
         (
             format!("documentation/{name}.h"),
-            header(interface).into_bytes(),
+            header(interface, standard).into_bytes(),
         ),
         (
             "documentation/sbom.cdx.json".to_owned(),
             sbom(&interface.into(), linked).into_bytes(),
         ),
-        // Importers pass its location to fmi2Instantiate, so it exists, although nothing is in it.
+        // Importers pass its location to fmi2Instantiate and fmi3Instantiate…, so it exists, although nothing is in it.
         ("resources/".to_owned(), Vec::new()),
     ];
+    if standard.is_fmi3() {
+        let icons = terminals::files(terminals, icon);
+        files.extend(
+            icons
+                .into_iter()
+                .map(|(path, bytes)| (format!("terminalsAndIcons/{path}"), bytes)),
+        );
+    } else {
+        files.push(("model.png".to_owned(), icon.to_vec()));
+    }
     let licences = licences::files(&interface.into(), linked);
     files.extend(
         licences
@@ -112,6 +131,7 @@ pub fn files(contents: &Contents<'_>) -> Vec<(String, Vec<u8>)> {
         bytes,
     } in binaries
     {
+        let platform = standard.platform(platform);
         files.push((
             format!("binaries/{platform}/{name}{extension}"),
             bytes.to_vec(),

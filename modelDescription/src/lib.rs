@@ -42,6 +42,9 @@
 //! | [`rules`], [`error`] | every rule that a declaration can break, and what is said of it | | 2.2 |
 //! | [`name`] | names of the structured naming convention | | 2.2.9 |
 //! | [`schema`], [`mod@xml`] | the XML's elements, and their contents | `modelDescription.xml` | 2.2, 4.3.1 |
+//! | [`standard`] | FMI 2.0 or 3.0, co-simulation or scheduled execution | | |
+//! | [`arrays`], [`schema3`], [`xml3`] | the same for FMI 3.0, where a row is one variable | `modelDescription.xml` | 3.0: 2.4 |
+//! | [`terminals`] | what is connected by one line, and the icons | `terminalsAndIcons/` | 3.0: 2.4.9 |
 //! | [`mod@document`] | the interface document for humans | `documentation/index.html` | 2.3 |
 //! | `html` | its pieces | | |
 //! | [`guide`] | what the rows cannot tell: what it does, picture, wiring | in the document | |
@@ -55,7 +58,9 @@
 //! No model is known here. The list of this project's FMUs is the package `fmus`.
 
 pub mod archive;
+pub mod arrays;
 pub mod component;
+mod deviations;
 pub mod document;
 pub mod entry;
 pub mod error;
@@ -70,8 +75,12 @@ pub mod quick_start;
 pub mod rules;
 pub mod sbom;
 pub mod schema;
+pub mod schema3;
+pub mod standard;
+pub mod terminals;
 mod variables;
 pub mod xml;
+pub mod xml3;
 
 pub use component::Component;
 pub use document::write as document;
@@ -81,6 +90,8 @@ pub use header::write as header;
 pub use interface::Interface;
 pub use product::Product;
 pub use sbom::write as sbom;
+pub use standard::Standard;
+pub use terminals::{Matching, Member, Terminal};
 pub use xml::write as xml;
 
 /// Version of the FMUs and of this tool: the workspace has one.

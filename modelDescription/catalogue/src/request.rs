@@ -1,17 +1,17 @@
 //! Archives from libraries, as `cargo xtask` asks for them in a file of JSON.
 
-use crate::{Fmu, wiring};
+use crate::{Fmu, terminals, wiring};
 use fmu_archive::archive::{self, Binary, Contents};
-use fmu_archive::{Component, Guide, Product, licences, sbom};
+use fmu_archive::{Component, Guide, Product, Standard, licences, sbom};
 use serde::Deserialize;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// One archive.
 #[derive(Debug, Deserialize)]
 pub struct Request {
     /// The FMU.
     pub name: String,
-    /// Where the archive goes.
+    /// Where the archive of FMI 2.0 goes.
     pub archive: PathBuf,
     /// Its libraries.
     pub binaries: Vec<Library>,
@@ -33,12 +33,12 @@ pub struct Library {
 }
 
 impl Request {
-    /// The bytes of the archive.
+    /// The archive of FMI 2.0 and, in the folder `fmi3` beside it, those of FMI 3.0: their places and bytes.
     ///
     /// # Errors
     /// When the declaration breaks a rule, a library cannot be read, a file tells of this machine, or a second archive of the
     /// same files has other bytes.
-    pub fn archive(&self, fmu: &Fmu) -> Result<Vec<u8>, String> {
+    pub fn archives(&self, fmu: &Fmu) -> Result<Vec<(PathBuf, Vec<u8>)>, String> {
         let interface = fmu
             .interface()
             .map_err(|error| format!("declaration of {}: {error}", fmu.name))?;
@@ -54,32 +54,45 @@ impl Request {
                 bytes,
             })
             .collect();
-        let contents = Contents {
-            interface: &interface,
-            binaries: &binaries,
-            linked: &self.linked,
-            guide: Guide {
-                what: fmu.what,
-                picture: fmu.picture,
-                wiring: &wiring::of(fmu.name),
-                system: wiring::system(fmu.name),
-            },
-            icon: fmu.icon,
+        let folder = self.archive.parent().unwrap_or(Path::new(""));
+        let file = self.archive.file_name().unwrap_or_default();
+        let wiring = wiring::of(fmu.name);
+        let terminals = terminals::of(fmu.name);
+        let write = |standard: Standard| {
+            let contents = Contents {
+                standard,
+                interface: &interface,
+                binaries: &binaries,
+                linked: &self.linked,
+                guide: Guide {
+                    what: fmu.what,
+                    picture: fmu.picture,
+                    wiring: &wiring,
+                    system: wiring::system(fmu.name),
+                },
+                icon: fmu.icon,
+                terminals: &terminals,
+            };
+            let bytes = self.written(&contents)?;
+            Ok((folder.join(standard.folder()).join(file), bytes))
         };
-        for (path, bytes) in archive::files(&contents) {
+        Standard::of(&interface).map(write).collect()
+    }
+
+    /// The bytes of one archive.
+    fn written(&self, contents: &Contents<'_>) -> Result<Vec<u8>, String> {
+        let name = contents.interface.name;
+        for (path, bytes) in archive::files(contents) {
             if let Some(folder) = carried(&self.forbidden, &bytes) {
-                return Err(format!(
-                    "{}.fmu: {path} carries the path {folder}",
-                    fmu.name
-                ));
+                return Err(format!("{name}.fmu: {path} carries the path {folder}"));
             }
         }
-        let write = || archive::write(&contents).map_err(|error| error.to_string());
+        let write = || archive::write(contents).map_err(|error| error.to_string());
         let bytes = write()?;
         if bytes == write()? {
             Ok(bytes)
         } else {
-            Err(format!("{}: two archives differ", fmu.name))
+            Err(format!("{name}: two archives differ"))
         }
     }
 }
@@ -151,9 +164,9 @@ mod tests {
             linked: Vec::new(),
             forbidden: vec!["/home/you/".to_owned()],
         };
-        assert!(request.archive(&FMUS[0]).is_ok());
+        assert!(request.archives(&FMUS[0]).is_ok());
         request.forbidden.push("/home/me/".to_owned());
-        let message = request.archive(&FMUS[0]).unwrap_err();
+        let message = request.archives(&FMUS[0]).unwrap_err();
         let file = format!("binaries/linux64/{}.so", FMUS[0].name);
         assert!(
             message.contains(&file) && message.contains("/home/me/"),
