@@ -58,7 +58,7 @@ fn sections(interface: &Interface, guide: Guide<'_>, standard: Standard) -> Vec<
     sections.extend(guide::what(guide));
     sections.extend(guide::picture(guide));
     sections.push(quick_start::section(interface, guide.system, standard));
-    sections.extend(guide::wiring(interface.name, guide));
+    sections.extend(guide::wiring(interface.name, guide, standard));
     sections.push(stepping(interface, standard));
     sections.extend(variables::sections(interface, standard));
     sections.extend(enumerations(interface));
