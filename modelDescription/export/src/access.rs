@@ -3,19 +3,15 @@
 use crate::failure::{Failure, Outcome};
 use crate::ffi::ValueReference;
 use crate::instance::{Instance, refused};
+use crate::kind::{Kind, TIME};
 use crate::legality::Phase;
 use crate::model::{Model, Refusal};
 use crate::provenance::text;
-use fmu_declaration::{Access, Causality, Of, Place, Provenance, Range, Variable};
+use fmu_declaration::{Access, Causality, Enumeration, Place, Provenance, Variable};
+use std::ops::Range;
 
-/// A type of the interface: its name, and what a row demands of a value.
+/// A value of the interface, and what a row demands of it.
 pub trait Value: fmu_declaration::Value {
-    /// Name in the standard.
-    const TYPE: &'static str;
-
-    /// Where the row's values are, if the row is of this type.
-    fn at<M>(access: &Access<M>) -> Option<&Place<M, Self>>;
-
     /// What is wrong with the value, if anything.
     fn objection<M>(&self, row: &Variable<M>) -> Option<String>;
 
@@ -23,15 +19,14 @@ pub trait Value: fmu_declaration::Value {
     fn of_text(_: &'static str) -> Option<Self> {
         None
     }
+
+    /// A time (s) as a value, if this is the type for times.
+    fn of_time(_: f64) -> Option<Self> {
+        None
+    }
 }
 
 impl Value for f64 {
-    const TYPE: &'static str = "Real";
-
-    fn at<M>(access: &Access<M>) -> Option<&Place<M, Self>> {
-        Self::of(access)
-    }
-
     #[inline]
     fn objection<M>(&self, row: &Variable<M>) -> Option<String> {
         let Access::Real { unit, range, .. } = &row.access else {
@@ -42,11 +37,15 @@ impl Value for f64 {
         }
         Some(out_of_range(*self, unit.name, range))
     }
+
+    fn of_time(time: f64) -> Option<Self> {
+        Some(time)
+    }
 }
 
 #[cold]
-fn out_of_range(value: f64, unit: &str, range: &Range) -> String {
-    let Range { low, high, .. } = range;
+fn out_of_range(value: f64, unit: &str, range: &fmu_declaration::Range) -> String {
+    let fmu_declaration::Range { low, high, .. } = range;
     if value.is_finite() {
         format!("= {value} {unit}, expected a value from {low} to {high}")
     } else {
@@ -55,53 +54,40 @@ fn out_of_range(value: f64, unit: &str, range: &Range) -> String {
 }
 
 impl Value for i32 {
-    const TYPE: &'static str = "Integer";
-
-    fn at<M>(access: &Access<M>) -> Option<&Place<M, Self>> {
-        Self::of(access)
-    }
-
     fn objection<M>(&self, row: &Variable<M>) -> Option<String> {
         match &row.access {
             Access::Integer { min, max, .. } if self < min || self > max => {
                 Some(format!("= {self}, expected a value from {min} to {max}"))
             }
             Access::Enumeration { of, .. } if !of.items.iter().any(|item| item.value == *self) => {
-                let items: Vec<_> = of
-                    .items
-                    .iter()
-                    .map(|item| format!("{} {}", item.value, item.name))
-                    .collect();
-                Some(format!(
-                    "= {self}, expected an item of {}: {}",
-                    of.name,
-                    items.join(", ")
-                ))
+                Some(no_item((*self).into(), of))
             }
             _ => None,
         }
     }
 }
 
+#[cold]
+fn no_item(value: i64, of: &Enumeration) -> String {
+    let items: Vec<_> = of
+        .items
+        .iter()
+        .map(|item| format!("{} {}", item.value, item.name))
+        .collect();
+    format!(
+        "= {value}, expected an item of {}: {}",
+        of.name,
+        items.join(", ")
+    )
+}
+
 impl Value for bool {
-    const TYPE: &'static str = "Boolean";
-
-    fn at<M>(access: &Access<M>) -> Option<&Place<M, Self>> {
-        Self::of(access)
-    }
-
     fn objection<M>(&self, _: &Variable<M>) -> Option<String> {
         None
     }
 }
 
 impl Value for String {
-    const TYPE: &'static str = "String";
-
-    fn at<M>(access: &Access<M>) -> Option<&Place<M, Self>> {
-        Self::of(access)
-    }
-
     fn objection<M>(&self, _: &Variable<M>) -> Option<String> {
         None
     }
@@ -141,7 +127,7 @@ pub(crate) fn check<M: Model>(model: &M, causality: Causality) -> Result<(), Ref
             Access::Real { at, .. } => first(model, at, row),
             Access::Integer { at, .. } | Access::Enumeration { at, .. } => first(model, at, row),
             Access::Boolean { at } => {
-                (0..row.len).find_map(|i| Some((i, boolean(at.word(model, i)).err()?.to_string())))
+                (0..row.len).find_map(|i| Some((i, boolean(at.word(model, i)).err()?.objection(row))))
             }
             Access::String { .. } => None,
         };
@@ -158,15 +144,21 @@ pub(crate) enum NoValue {
     /// A Boolean other than 0 and 1. 0x100 may be a word that nobody wrote, and `engage` must not be on then. The C library
     /// says the same.
     Word(i32),
+    /// An integer that is no item of any enumeration: too large.
+    Item(i64),
     /// A pointer that is null, or text in another encoding.
     Text,
 }
 
-impl core::fmt::Display for NoValue {
-    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        match self {
-            Self::Word(word) => write!(f, "= {word}, expected 0 or 1"),
-            Self::Text => f.write_str("is null or not UTF-8, expected a UTF-8 string"),
+impl NoValue {
+    /// What is wrong with it as a value of this row.
+    #[cold]
+    fn objection<M>(self, row: &Variable<M>) -> String {
+        match (self, &row.access) {
+            (Self::Item(value), Access::Enumeration { of, .. }) => no_item(value, of),
+            (Self::Item(value), _) => format!("= {value}, expected an item"),
+            (Self::Word(word), _) => format!("= {word}, expected 0 or 1"),
+            (Self::Text, _) => "is null or not UTF-8, expected a UTF-8 string".into(),
         }
     }
 }
@@ -186,18 +178,6 @@ pub(crate) fn boolean(word: i32) -> Result<bool, NoValue> {
 /// Why what the model computes is refused.
 const COMPUTED: &str = "is computed by the model: it cannot be set";
 
-/// The text of a variable that says what the library was built from; an error where `reference` is none of them.
-#[cold]
-fn constant<M: Model, V: Value>(reference: ValueReference) -> Result<V, Failure> {
-    match Provenance::find(reference) {
-        None => unknown::<_, M>(reference),
-        Some(of) => match V::of_text(text(of)) {
-            Some(value) => Ok(value),
-            None => another_type::<_, V>(of.name(), reference),
-        },
-    }
-}
-
 #[cold]
 fn unknown<T, M: Model>(reference: ValueReference) -> Result<T, Failure> {
     refused(format!(
@@ -207,11 +187,20 @@ fn unknown<T, M: Model>(reference: ValueReference) -> Result<T, Failure> {
 }
 
 #[cold]
-fn another_type<T, V: Value>(name: &str, reference: ValueReference) -> Result<T, Failure> {
+fn another_type<T, K: Kind>(name: &str, reference: ValueReference) -> Result<T, Failure> {
     refused(format!(
         "{name} (value reference {reference}) is not of type {}",
-        V::TYPE
+        K::NAME
     ))
+}
+
+/// The row and the elements that a value reference stands for in the interface of `K`.
+#[inline]
+fn find<K: Kind, M: Model>(
+    reference: ValueReference,
+) -> Option<(&'static Variable<M>, Range<usize>)> {
+    let (row, element) = M::DESCRIPTION.find(reference)?;
+    Some((row, K::elements(row, element)?))
 }
 
 /// Why a variable cannot be set in this phase, if it cannot.
@@ -227,76 +216,131 @@ fn not_settable<M>(variable: &Variable<M>, phase: Phase) -> Option<&'static str>
 }
 
 impl<M: Model> Instance<M> {
-    /// fmi2GetReal, fmi2GetInteger, fmi2GetBoolean, fmi2GetString: calls `put(i, value)` for each reference.
-    pub(crate) fn get<V: Value>(
+    /// The value of a variable that has no row: what the library was built from, or the time. An error where `reference` is
+    /// none of them.
+    #[cold]
+    fn without_row<K: Kind>(&self, reference: ValueReference) -> Result<K::Value, Failure> {
+        let (name, value) = match Provenance::find(reference) {
+            Some(of) => (of.name(), K::Value::of_text(text(of))),
+            None if reference == TIME && !K::SCALAR => {
+                ("time", K::Value::of_time(self.now.clock.time()))
+            }
+            None => return unknown::<_, M>(reference),
+        };
+        value.map_or_else(|| another_type::<_, K>(name, reference), Ok)
+    }
+
+    /// How many values the references stand for.
+    ///
+    /// # Errors
+    /// The first that stands for none, or for values of another type.
+    pub(crate) fn count<K: Kind>(&self, references: &[ValueReference]) -> Result<usize, Failure> {
+        let mut count = 0;
+        for &reference in references {
+            count += match find::<K, M>(reference) {
+                Some((row, elements)) if K::at(&row.access).is_some() => elements.len(),
+                Some((row, elements)) => {
+                    return another_type::<_, K>(&shown::<K, M>(row, elements.start), reference);
+                }
+                None => self.without_row::<K>(reference).map(|_| 1)?,
+            };
+        }
+        Ok(count)
+    }
+
+    /// The functions that get: calls `put(i, value)` for each value, in the order of the references.
+    pub(crate) fn get<K: Kind>(
         &mut self,
         references: &[ValueReference],
-        mut put: impl FnMut(usize, V),
+        mut put: impl FnMut(usize, K::Value),
     ) -> Outcome {
         if self.now.phase == Phase::InitializationMode {
             // All are looked up before anything is computed: a refused Get changes nothing.
-            for &reference in references {
-                match M::DESCRIPTION.find(reference) {
-                    Some((row, element)) if V::at(&row.access).is_none() => {
-                        return another_type::<_, V>(&row.element_name(element), reference);
-                    }
-                    Some(_) => {}
-                    None => drop(constant::<M, V>(reference)?),
-                }
-            }
-            // What cannot be initialized yet still shows its values; fmi2ExitInitializationMode says what is wrong.
+            self.count::<K>(references)?;
+            // What cannot be initialized yet still shows its values; leaving Initialization Mode says what is wrong.
             let _ = self.initialize();
         }
+        let mut next = 0;
         for (i, &reference) in references.iter().enumerate() {
-            match M::DESCRIPTION.find(reference) {
-                Some((variable, element)) => match V::at(&variable.access) {
-                    Some(at) => put(i, at.get(&self.now.model, element)),
+            let first = if K::SCALAR { i } else { next };
+            next = match find::<K, M>(reference) {
+                Some((row, elements)) => match K::at(&row.access) {
+                    Some(at) => {
+                        let end = first + elements.len();
+                        elements
+                            .zip(first..)
+                            .for_each(|(element, i)| put(i, at.get(&self.now.model, element)));
+                        end
+                    }
                     None => {
-                        return another_type::<_, V>(&variable.element_name(element), reference);
+                        return another_type::<_, K>(
+                            &shown::<K, M>(row, elements.start),
+                            reference,
+                        );
                     }
                 },
-                None => put(i, constant::<M, V>(reference)?),
-            }
+                None => {
+                    put(first, self.without_row::<K>(reference)?);
+                    first + 1
+                }
+            };
         }
         Ok(())
     }
 
-    /// fmi2SetReal, fmi2SetInteger, fmi2SetBoolean, fmi2SetString. `value(i)` is the i-th value, or why it is none. All
-    /// values are checked before the first is written.
-    pub(crate) fn set<V: Value>(
+    /// The functions that set. `value(i)` is the i-th value in the order of the references, or why it is none. All values
+    /// are checked before the first is written.
+    pub(crate) fn set<K: Kind>(
         &mut self,
         references: &[ValueReference],
-        value: impl Fn(usize) -> Result<V, NoValue>,
+        value: impl Fn(usize) -> Result<K::Value, NoValue>,
     ) -> Outcome {
         let phase = self.now.phase;
         let mut tuned = false;
+        let mut next = 0;
         for (i, &reference) in references.iter().enumerate() {
-            let Some((variable, element)) = M::DESCRIPTION.find(reference) else {
+            let Some((variable, elements)) = find::<K, M>(reference) else {
                 return match Provenance::find(reference) {
                     Some(of) => refused(format!("{} {COMPUTED}", of.name())),
+                    None if reference == TIME && !K::SCALAR => {
+                        refused("time is the independent variable: it cannot be set".into())
+                    }
                     None => unknown::<_, M>(reference),
                 };
             };
-            if V::at(&variable.access).is_none() {
-                return another_type::<_, V>(&variable.element_name(element), reference);
+            if K::at(&variable.access).is_none() {
+                return another_type::<_, K>(&shown::<K, M>(variable, elements.start), reference);
             }
-            let objection = match (not_settable(variable, phase), value(i)) {
-                (Some(reason), _) => Some(reason.to_owned()),
-                (None, Err(none)) => Some(none.to_string()),
-                (None, Ok(value)) => value.objection(variable),
-            };
-            if let Some(objection) = objection {
-                return refused(format!("{} {objection}", variable.element_name(element)));
+            let first = if K::SCALAR { i } else { next };
+            next = first + elements.len();
+            for (element, i) in elements.zip(first..) {
+                let objection = match (not_settable(variable, phase), value(i)) {
+                    (Some(reason), _) => Some(reason.to_owned()),
+                    (None, Err(none)) => Some(none.objection(variable)),
+                    (None, Ok(value)) => value.objection(variable),
+                };
+                if let Some(objection) = objection {
+                    return refused(format!("{} {objection}", variable.element_name(element)));
+                }
             }
             tuned |= variable.is_tunable();
         }
         let tuned_in_run = tuned && phase == Phase::StepComplete;
         let before = tuned_in_run.then(|| self.now.model.clone());
+        let mut next = 0;
         for (i, &reference) in references.iter().enumerate() {
-            let place = M::DESCRIPTION.find(reference);
-            let place = place.and_then(|(row, element)| Some((V::at(&row.access)?, element)));
-            if let (Some((at, element)), Ok(value)) = (place, value(i)) {
-                at.set(&mut self.now.model, element, value);
+            let Some((row, elements)) = find::<K, M>(reference) else {
+                continue;
+            };
+            let first = if K::SCALAR { i } else { next };
+            next = first + elements.len();
+            let Some(at) = K::at(&row.access) else {
+                continue;
+            };
+            for (element, i) in elements.zip(first..) {
+                if let Ok(value) = value(i) {
+                    at.set(&mut self.now.model, element, value);
+                }
             }
         }
         self.stale |= phase == Phase::InitializationMode;
@@ -308,5 +352,15 @@ impl<M: Model> Instance<M> {
             }
         }
         Ok(())
+    }
+}
+
+/// The name of what a value reference stands for.
+#[cold]
+fn shown<K: Kind, M: Model>(row: &Variable<M>, element: usize) -> String {
+    if K::SCALAR {
+        row.element_name(element)
+    } else {
+        row.full_name().trim_end_matches("[i]").to_owned()
     }
 }

@@ -3,7 +3,7 @@
 use crate::failure::{Failure, Outcome};
 use crate::ffi::{Component, Status};
 use crate::instance::Instance;
-use crate::legality::{Function, Phase};
+use crate::legality::Call;
 use crate::model::Model;
 use std::cell::RefCell;
 use std::fmt::Write as _;
@@ -11,14 +11,14 @@ use std::panic::{AssertUnwindSafe, PanicHookInfo, catch_unwind};
 use std::sync::Once;
 
 /// Runs `call` on the instance behind `component`, if that is legal now, with everything that can go wrong turned into
-/// a logged `fmi2Error`.
+/// a logged error.
 ///
 /// # Safety
-/// `component` is null or was returned by [`instantiate`](crate::functions::instantiate) for the same model, was not
-/// freed, and is used by no other thread during the call (the importer's contract, section 2.1.6).
-pub unsafe fn guard<M: Model>(
+/// `component` is null or was returned by one of the functions that instantiate the same model, was not freed, and is
+/// used by no other thread during the call (the importer's contract).
+pub unsafe fn guard<M: Model, F: Call>(
     component: Component,
-    function: Function,
+    function: F,
     call: impl FnOnce(&mut Instance<M>) -> Outcome,
 ) -> Status {
     // SAFETY: this function's contract.
@@ -27,8 +27,10 @@ pub unsafe fn guard<M: Model>(
     };
     // `#[repr(C)]` in Instance keeps nothing of it half-changed: refused calls change nothing, broken ones are marked.
     let outcome = catch_unwind(AssertUnwindSafe(|| {
-        if !function.is_legal_in(instance.phase()) {
-            return Err(Failure::Refused(not_legal(function, instance.phase())));
+        let state = F::state(instance.phase(), instance.is_scheduled());
+        // A function that is legal in no state says itself what is missing.
+        if !function.legal_in().contains(&state) && !function.legal_in().is_empty() {
+            return Err(Failure::Refused(not_legal(function, state)));
         }
         call(instance)
     }))
@@ -50,22 +52,26 @@ pub unsafe fn guard<M: Model>(
         Failure::Broken(reason) => {
             instance.enter_error();
             instance.log().error(format_args!(
-                "{}: {reason}; the instance needs fmi2Reset, fmi2SetFMUstate or fmi2FreeInstance",
-                function.name()
+                "{}: {reason}; the instance needs {}",
+                function.name(),
+                F::WAYS_OUT
             ));
         }
     }));
     Status::Error
 }
 
-fn not_legal(function: Function, phase: Phase) -> String {
-    let mut text = format!("not legal in the phase '{}', expected ", phase.name());
-    for (i, legal) in function.legal_in().iter().enumerate() {
+fn not_legal<F: Call>(function: F, state: F::State) -> String {
+    let mut text = format!(
+        "not legal in the phase '{}', expected ",
+        F::state_name(state)
+    );
+    for (i, &legal) in function.legal_in().iter().enumerate() {
         let _ = write!(
             text,
             "{}'{}'",
             if i == 0 { "" } else { " or " },
-            legal.name()
+            F::state_name(legal)
         );
     }
     text

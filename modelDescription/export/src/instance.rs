@@ -2,22 +2,23 @@
 
 use crate::clock::Clock;
 use crate::failure::{Failure, Outcome};
-use crate::ffi::{Callbacks, LAST_SUCCESSFUL_TIME, StatusKind, TERMINATED};
 use crate::legality::Phase;
-use crate::log::{self, Category, Enabled, Log};
+use crate::log::{self, Category, Enabled, Log, Sink};
 use crate::model::Model;
 use crate::outputs::Outputs;
-use crate::resource;
 use crate::snapshot::Snapshot;
+use crate::time::Step;
 use std::ffi::{CStr, CString};
 use std::path::PathBuf;
 
 /// One instance.
 pub struct Instance<M: Model> {
-    callbacks: Callbacks,
+    sink: Sink,
     name: CString,
     enabled: Enabled,
     resources: Option<PathBuf>,
+    /// Whether the importer activates the clock, by FMI 3.0, instead of making steps.
+    scheduled: bool,
     /// What an FMU state holds.
     pub(crate) now: Snapshot<M>,
     /// In Initialization Mode: something was set since the model was last initialized.
@@ -28,12 +29,13 @@ pub struct Instance<M: Model> {
 }
 
 impl<M: Model> Instance<M> {
-    /// A new instance with start values.
+    /// A new instance with start values, whose resources are in the folder.
     pub(crate) fn new(
-        callbacks: Callbacks,
+        sink: Sink,
         name: CString,
         enabled: Enabled,
-        location: Option<&str>,
+        resources: Option<PathBuf>,
+        scheduled: bool,
     ) -> Self {
         let now = Snapshot {
             phase: Phase::Instantiated,
@@ -41,22 +43,16 @@ impl<M: Model> Instance<M> {
             model: M::default(),
         };
         let mut instance = Self {
-            callbacks,
+            sink,
             name,
             enabled,
-            resources: None,
+            resources,
+            scheduled,
             now,
             stale: false,
             outputs: Outputs::new(),
             strings: Vec::new(),
         };
-        match location.map(resource::path) {
-            Some(Ok(path)) => instance.resources = Some(path),
-            Some(Err(reason)) => instance
-                .log()
-                .warning(format_args!("fmi2Instantiate: {reason}; ignored")),
-            None => {}
-        }
         instance.now.model.located(instance.resources.as_deref());
         instance
     }
@@ -66,23 +62,28 @@ impl<M: Model> Instance<M> {
         self.now.phase
     }
 
+    /// Whether the importer activates the clock instead of making steps.
+    pub fn is_scheduled(&self) -> bool {
+        self.scheduled
+    }
+
     pub(crate) fn enter_error(&mut self) {
         self.now.phase = Phase::Error;
     }
 
     pub(crate) fn log(&self) -> Log<'_> {
-        Log::new(&self.callbacks, &self.name, self.enabled)
+        Log::new(&self.sink, &self.name, self.enabled)
     }
 
     /// The model with a log beside it.
     pub(crate) fn model_and_log(&mut self) -> (&mut M, Log<'_>) {
         (
             &mut self.now.model,
-            Log::new(&self.callbacks, &self.name, self.enabled),
+            Log::new(&self.sink, &self.name, self.enabled),
         )
     }
 
-    /// fmi2SetDebugLogging
+    /// fmi2SetDebugLogging, fmi3SetDebugLogging
     pub(crate) fn set_debug_logging<'a>(
         &mut self,
         on: bool,
@@ -113,7 +114,7 @@ impl<M: Model> Instance<M> {
         Ok(())
     }
 
-    /// fmi2SetupExperiment
+    /// fmi2SetupExperiment, and the arguments of fmi3EnterInitializationMode
     pub(crate) fn setup_experiment(
         &mut self,
         tolerance: Option<f64>,
@@ -139,14 +140,14 @@ impl<M: Model> Instance<M> {
         Ok(())
     }
 
-    /// fmi2EnterInitializationMode
+    /// fmi2EnterInitializationMode, fmi3EnterInitializationMode
     pub(crate) fn enter_initialization_mode(&mut self) -> Outcome {
         self.now.phase = Phase::InitializationMode;
         self.stale = true;
         Ok(())
     }
 
-    /// fmi2ExitInitializationMode
+    /// fmi2ExitInitializationMode, fmi3ExitInitializationMode
     pub(crate) fn exit_initialization_mode(&mut self) -> Outcome {
         self.initialize()?;
         self.now.phase = Phase::StepComplete;
@@ -173,7 +174,7 @@ impl<M: Model> Instance<M> {
         Ok(())
     }
 
-    /// fmi2Terminate
+    /// fmi2Terminate, fmi3Terminate
     pub(crate) fn terminate(&mut self) -> Outcome {
         self.now.phase = Phase::Terminated;
         let time = self.now.clock.time();
@@ -184,7 +185,7 @@ impl<M: Model> Instance<M> {
         Ok(())
     }
 
-    /// fmi2Reset
+    /// fmi2Reset, fmi3Reset
     pub(crate) fn reset(&mut self) -> Outcome {
         self.now = Snapshot {
             phase: Phase::Instantiated,
@@ -196,9 +197,24 @@ impl<M: Model> Instance<M> {
         Ok(())
     }
 
-    /// fmi2DoStep
+    /// fmi2DoStep, fmi3DoStep
     pub(crate) fn do_step(&mut self, t: f64, h: f64) -> Outcome {
         let step = self.now.clock.step(t, h)?;
+        self.advance(step)
+    }
+
+    /// fmi3ActivateModelPartition: the sample at `t` (s), and what holds until the next one is due.
+    pub(crate) fn activate(&mut self, t: f64) -> Outcome {
+        let period = M::DESCRIPTION.experiment.step;
+        let step = self.now.clock.step(t, period);
+        let expected = self.now.clock.time();
+        let step = step.map_err(|_| {
+            format!("activationTime = {t:?} s, expected {expected:?} s: the clock is activated every {period:?} s")
+        })?;
+        self.advance(step)
+    }
+
+    fn advance(&mut self, step: Step) -> Outcome {
         self.now.model.accepts(&step).map_err(|refusal| refusal.0)?;
         let (model, mut log) = self.model_and_log();
         model
@@ -211,27 +227,7 @@ impl<M: Model> Instance<M> {
         Ok(())
     }
 
-    /// fmi2GetRealStatus
-    pub(crate) fn real_status(&self, kind: StatusKind) -> Result<f64, Failure> {
-        match kind {
-            LAST_SUCCESSFUL_TIME => Ok(self.now.clock.time()),
-            _ => Err(Failure::Refused(format!(
-                "status kind {kind} is not supported, expected fmi2LastSuccessfulTime (2)"
-            ))),
-        }
-    }
-
-    /// fmi2GetBooleanStatus
-    pub(crate) fn boolean_status(&self, kind: StatusKind) -> Result<bool, Failure> {
-        match kind {
-            TERMINATED => Ok(false), // no model ends the run by itself
-            _ => Err(Failure::Refused(format!(
-                "status kind {kind} is not supported, expected fmi2Terminated (3)"
-            ))),
-        }
-    }
-
-    /// fmi2SetFMUstate
+    /// fmi2SetFMUstate, fmi3SetFMUState
     pub(crate) fn restore(&mut self, snapshot: &Snapshot<M>) -> Outcome {
         self.now = snapshot.clone();
         self.now.model.located(self.resources.as_deref());
@@ -259,8 +255,8 @@ pub(crate) fn instance_name(name: Option<&str>) -> CString {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Refusal;
     use crate::access::Value;
-    use crate::{Refusal, Step};
     use fmu_declaration::Variability::Continuous;
     use fmu_declaration::{Declare, Description, Experiment, Stepping, real, unit};
 

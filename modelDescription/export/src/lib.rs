@@ -42,6 +42,7 @@ pub mod guard;
 mod handle;
 mod identity;
 pub mod instance;
+mod kind;
 pub mod legality;
 pub mod log;
 pub mod model;

@@ -1,6 +1,6 @@
 //! Messages to the importer, by category.
 
-use crate::ffi::{Callbacks, Status};
+use crate::ffi::{Status, fmi2, fmi3};
 use std::ffi::{CStr, CString};
 use std::fmt;
 
@@ -64,17 +64,26 @@ impl Enabled {
     }
 }
 
+/// What the importer gave an instance to log with.
+#[derive(Clone, Copy)]
+pub(crate) enum Sink {
+    /// By fmi2Instantiate.
+    Fmi2(fmi2::Callbacks),
+    /// By fmi3InstantiateCoSimulation or fmi3InstantiateScheduledExecution.
+    Fmi3(fmi3::Logger),
+}
+
 /// Where messages of one instance go.
 pub struct Log<'a> {
-    sink: Option<(&'a Callbacks, &'a CStr)>,
+    sink: Option<(&'a Sink, &'a CStr)>,
     enabled: Enabled,
 }
 
 impl<'a> Log<'a> {
     /// A log to the importer's logger, under the instance's name.
-    pub(crate) fn new(callbacks: &'a Callbacks, instance_name: &'a CStr, enabled: Enabled) -> Self {
+    pub(crate) fn new(sink: &'a Sink, instance_name: &'a CStr, enabled: Enabled) -> Self {
         Self {
-            sink: Some((callbacks, instance_name)),
+            sink: Some((sink, instance_name)),
             enabled,
         }
     }
@@ -103,16 +112,19 @@ impl<'a> Log<'a> {
     }
 
     fn write(&mut self, category: Category, message: fmt::Arguments<'_>) {
-        let Some((callbacks, instance_name)) = self.sink.filter(|_| self.enabled.has(category))
-        else {
+        let Some((sink, instance_name)) = self.sink else {
             return;
         };
-        callbacks.log(
-            instance_name,
-            category.status(),
-            category.name().0,
-            &finished(message),
-        );
+        // FMI 3.0.2, section 2.2.4: errors are logged regardless of the settings.
+        let always = category == Category::Error && matches!(sink, Sink::Fmi3(_));
+        if !always && !self.enabled.has(category) {
+            return;
+        }
+        let (status, name, text) = (category.status(), category.name().0, finished(message));
+        match sink {
+            Sink::Fmi2(callbacks) => callbacks.log(instance_name, status, name, &text),
+            Sink::Fmi3(logger) => logger.log(status, name, &text),
+        }
     }
 }
 

@@ -7,9 +7,10 @@ use counting::{Counting, allocations};
 use fmu_archive::Interface;
 use fmu_archive::entry::Kind;
 use fmu_declaration::Causality;
-use fmu_export::ffi::{CO_SIMULATION, Callbacks, Component, Status};
+use fmu_export::ffi::fmi2::{CO_SIMULATION, Callbacks, Component, Status};
+use fmu_export::functions::fmi2::{self, kind};
 use fmu_export::functions as f;
-use fmu_export::legality::Function;
+use fmu_export::legality::fmi2::Function;
 use fmu_export::model::Model;
 use std::ffi::CString;
 
@@ -29,10 +30,10 @@ fn initialized<M: Model>() -> Component {
     let (n, g, location) = (c"name".as_ptr(), guid.as_ptr(), std::ptr::null());
     // SAFETY: all pointers outlive the call; the component is used by this thread only.
     unsafe {
-        let c = f::instantiate::<M>(n, CO_SIMULATION, g, location, &raw const callbacks, 0, 0);
+        let c = fmi2::instantiate::<M>(n, CO_SIMULATION, g, location, &raw const callbacks, 0, 0);
         assert!(!c.is_null());
         for (reference, value) in settings::<M>() {
-            let status = f::set::<M, f64>(
+            let status = fmi2::set::<M, kind::Real>(
                 c,
                 Function::fmi2SetReal,
                 &raw const reference,
@@ -41,8 +42,8 @@ fn initialized<M: Model>() -> Component {
             );
             assert_eq!(status, Status::Ok);
         }
-        assert_eq!(f::enter_initialization_mode::<M>(c), Status::Ok);
-        assert_eq!(f::exit_initialization_mode::<M>(c), Status::Ok);
+        assert_eq!(f::enter_initialization_mode::<M>(c, Function::fmi2EnterInitializationMode), Status::Ok);
+        assert_eq!(f::exit_initialization_mode::<M>(c, Function::fmi2ExitInitializationMode), Status::Ok);
         c
     }
 }
@@ -99,7 +100,7 @@ fn of_a_run<M: Model>() -> u64 {
             let before: f64 = got.iter().sum();
             // SAFETY: arrays of the lengths that are passed; the component is live and used by this thread only.
             unsafe {
-                let status = f::set::<M, f64>(c, set, i.as_ptr(), i.len(), values.as_ptr());
+                let status = fmi2::set::<M, kind::Real>(c, set, i.as_ptr(), i.len(), values.as_ptr());
                 assert_eq!(status, Status::Ok);
                 assert_eq!(f::do_step::<M>(c, t, 0.002, 1), Status::Ok);
                 let status = f::get::<M, f64>(c, get, o.as_ptr(), o.len(), got.as_mut_ptr());

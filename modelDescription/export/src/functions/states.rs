@@ -1,47 +1,54 @@
-//! FMU state: section 2.1.8.
+//! FMU states.
 
 use super::known;
-use crate::ffi::*;
+use crate::ffi::{Component, FmuState, Status, array, array_mut};
 use crate::guard::guard;
 use crate::handle;
 use crate::instance::refused;
-use crate::legality::Function as F;
+use crate::legality::Call;
 use crate::model::Model;
 use crate::snapshot::Snapshot;
 
-/// fmi2GetFMUstate
-pub unsafe fn get_fmu_state<M: Model>(c: Component, state: *mut FmuState) -> Status {
+/// fmi2GetFMUstate, fmi3GetFMUState
+pub unsafe fn get_fmu_state<M: Model, F: Call>(
+    c: Component,
+    function: F, state: *mut FmuState) -> Status {
     // SAFETY: the importer's contract; one model per library.
     unsafe {
-        guard::<M>(c, F::fmi2GetFMUstate, |instance| {
-            let slot = known(state.as_mut(), "FMUstate")?;
+        guard::<M, F>(c, function, |instance| {
+            let slot = known(state.as_mut(), F::FMU_STATE)?;
             handle::put(slot, instance.now.clone());
             Ok(())
         })
     }
 }
 
-/// fmi2SetFMUstate
-pub unsafe fn set_fmu_state<M: Model>(c: Component, state: FmuState) -> Status {
+/// fmi2SetFMUstate, fmi3SetFMUState
+pub unsafe fn set_fmu_state<M: Model, F: Call>(
+    c: Component,
+    function: F, state: FmuState) -> Status {
     // SAFETY: the importer's contract; one model per library.
     unsafe {
-        guard::<M>(c, F::fmi2SetFMUstate, |instance| {
-            let snapshot = known(handle::get::<M>(state), "FMUstate")?;
+        guard::<M, F>(c, function, |instance| {
+            let snapshot = known(handle::get::<M>(state), F::FMU_STATE)?;
             instance.restore(snapshot)
         })
     }
 }
 
-/// fmi2FreeFMUstate: null is allowed, also inside.
-pub unsafe fn free_fmu_state<M: Model>(c: Component, state: *mut FmuState) -> Status {
+/// fmi2FreeFMUstate, fmi3FreeFMUState: null is allowed, also inside.
+pub unsafe fn free_fmu_state<M: Model, F: Call>(
+    c: Component,
+    function: F, state: *mut FmuState) -> Status {
     // SAFETY: the importer's contract; one model per library.
     unsafe {
-        guard::<M>(c, F::fmi2FreeFMUstate, |_| match state.as_mut() {
+        guard::<M, F>(c, function, |_| match state.as_mut() {
             Some(slot) if !slot.is_null() => {
                 if !handle::free::<M>(*slot) {
-                    return refused(
-                        "FMUstate is not a state of this FMU, or was freed before".into(),
-                    );
+                    return refused(format!(
+                        "{} is not a state of this FMU, or was freed before",
+                        F::FMU_STATE
+                    ));
                 }
                 *slot = std::ptr::null_mut();
                 Ok(())
@@ -51,17 +58,18 @@ pub unsafe fn free_fmu_state<M: Model>(c: Component, state: *mut FmuState) -> St
     }
 }
 
-/// fmi2SerializedFMUstateSize
-pub unsafe fn serialized_fmu_state_size<M: Model>(
+/// fmi2SerializedFMUstateSize, fmi3SerializedFMUStateSize
+pub unsafe fn serialized_fmu_state_size<M: Model, F: Call>(
     c: Component,
+    function: F,
     state: FmuState,
     size: *mut usize,
 ) -> Status {
     // SAFETY: the importer's contract; one model per library.
     unsafe {
-        guard::<M>(c, F::fmi2SerializedFMUstateSize, |_| {
+        guard::<M, F>(c, function, |_| {
             let size = known(size.as_mut(), "size")?;
-            *size = known(handle::get::<M>(state), "FMUstate")?
+            *size = known(handle::get::<M>(state), F::FMU_STATE)?
                 .to_bytes()?
                 .len();
             Ok(())
@@ -69,18 +77,19 @@ pub unsafe fn serialized_fmu_state_size<M: Model>(
     }
 }
 
-/// fmi2SerializeFMUstate
-pub unsafe fn serialize_fmu_state<M: Model>(
+/// fmi2SerializeFMUstate, fmi3SerializeFMUState
+pub unsafe fn serialize_fmu_state<M: Model, F: Call>(
     c: Component,
+    function: F,
     state: FmuState,
-    bytes: *mut Byte,
+    bytes: *mut u8,
     size: usize,
 ) -> Status {
     // SAFETY: the importer's contract; one model per library.
     unsafe {
-        guard::<M>(c, F::fmi2SerializeFMUstate, |_| {
-            let target = known(array_mut(bytes.cast::<u8>(), size), "serializedState")?;
-            let source = known(handle::get::<M>(state), "FMUstate")?.to_bytes()?;
+        guard::<M, F>(c, function, |_| {
+            let target = known(array_mut(bytes, size), "serializedState")?;
+            let source = known(handle::get::<M>(state), F::FMU_STATE)?.to_bytes()?;
             let Some(target) = target.get_mut(..source.len()) else {
                 return refused(format!(
                     "size = {size}, expected at least {} bytes",
@@ -93,18 +102,19 @@ pub unsafe fn serialize_fmu_state<M: Model>(
     }
 }
 
-/// fmi2DeSerializeFMUstate
-pub unsafe fn deserialize_fmu_state<M: Model>(
+/// fmi2DeSerializeFMUstate, fmi3DeserializeFMUState
+pub unsafe fn deserialize_fmu_state<M: Model, F: Call>(
     c: Component,
-    bytes: *const Byte,
+    function: F,
+    bytes: *const u8,
     size: usize,
     state: *mut FmuState,
 ) -> Status {
     // SAFETY: the importer's contract; one model per library.
     unsafe {
-        guard::<M>(c, F::fmi2DeSerializeFMUstate, |_| {
-            let bytes = known(array(bytes.cast::<u8>(), size), "serializedState")?;
-            let slot = known(state.as_mut(), "FMUstate")?;
+        guard::<M, F>(c, function, |_| {
+            let bytes = known(array(bytes, size), "serializedState")?;
+            let slot = known(state.as_mut(), F::FMU_STATE)?;
             handle::put(slot, Snapshot::<M>::from_bytes(bytes)?);
             Ok(())
         })

@@ -11,67 +11,37 @@
 //!   too (the standard: not there), where the last successful time is what one wants to know; the other status functions
 //!   and `fmi2CancelStep` (the standard: while a step is pending only) are refused anyway, with what is not supported.
 
-/// Where an instance is in its life.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
-pub enum Phase {
-    /// After `fmi2Instantiate` or `fmi2Reset`.
-    Instantiated,
-    /// After `fmi2EnterInitializationMode`.
-    InitializationMode,
-    /// After `fmi2ExitInitializationMode` and after each successful step (the standard's *step complete*).
-    StepComplete,
-    /// After `fmi2Terminate`.
-    Terminated,
-    /// After a caught panic or a failed step.
-    Error,
-}
+use super::{Call, Phase, table};
 
-impl Phase {
-    /// Name as in the standard.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Instantiated => "instantiated",
-            Self::InitializationMode => "Initialization Mode",
-            Self::StepComplete => "step complete",
-            Self::Terminated => "terminated",
-            Self::Error => "error",
-        }
+impl Call for Function {
+    type State = Phase;
+    const FMU_STATE: &'static str = "FMUstate";
+    const WAYS_OUT: &'static str = "fmi2Reset, fmi2SetFMUstate or fmi2FreeInstance";
+
+    #[inline]
+    fn name(self) -> &'static str {
+        Self::name(self)
+    }
+
+    #[inline]
+    fn legal_in(self) -> &'static [Phase] {
+        Self::legal_in(self)
+    }
+
+    #[inline]
+    fn state(phase: Phase, _: bool) -> Phase {
+        phase
+    }
+
+    fn state_name(state: Phase) -> &'static str {
+        state.name()
     }
 }
 
-macro_rules! table {
-    ($($function:ident: $($letter:ident)*;)*) => {
-        /// A function of the interface that is called on an instance.
-        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-        #[allow(non_camel_case_types, reason = "the C names of the standard")]
-        pub enum Function {
-            $(#[doc = concat!("`", stringify!($function), "`")] $function,)*
-        }
-
-        impl Function {
-            /// All of them.
-            pub const LIST: &[Self] = &[$(Self::$function),*];
-
-            /// Its C name.
-            pub const fn name(self) -> &'static str {
-                match self { $(Self::$function => stringify!($function)),* }
-            }
-
-            /// The phases in which it is legal.
-            pub const fn legal_in(self) -> &'static [Phase] {
-                match self { $(Self::$function => &[$(table!(@ $letter)),*]),* }
-            }
-        }
-    };
-    (@ n) => { Phase::Instantiated };
-    (@ i) => { Phase::InitializationMode };
-    (@ s) => { Phase::StepComplete };
-    (@ t) => { Phase::Terminated };
-    (@ e) => { Phase::Error };
-}
-
 // n: instantiated, i: Initialization Mode, s: step complete, t: terminated, e: error
-table! {
+table! { Phase:
+    n => Instantiated, i => InitializationMode, s => StepComplete, t => Terminated, e => Error;
+
     fmi2SetDebugLogging:           n i s t e;
     fmi2FreeInstance:              n i s t e;
     fmi2SetupExperiment:           n;
@@ -103,11 +73,4 @@ table! {
     fmi2GetIntegerStatus:              s t e;
     fmi2GetBooleanStatus:              s t e;
     fmi2GetStringStatus:               s t e;
-}
-
-impl Function {
-    /// Whether the function may be called in `phase`.
-    pub fn is_legal_in(self, phase: Phase) -> bool {
-        self.legal_in().contains(&phase)
-    }
 }

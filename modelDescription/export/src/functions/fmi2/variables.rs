@@ -1,45 +1,47 @@
 //! Variables by value reference: section 2.1.7.
 
-use super::known;
-use crate::access::{NoValue, Value, boolean};
-use crate::ffi::*;
+use crate::access::{NoValue, boolean};
+use crate::ffi::fmi2::*;
+use crate::ffi::{array, array_mut, string};
+use crate::functions::known;
 use crate::guard::guard;
-use crate::legality::Function as F;
+use crate::kind::{Kind, fmi2 as kind};
+use crate::legality::fmi2::Function as F;
 use crate::model::Model;
 use std::ffi::CString;
 
-/// fmi2GetReal, fmi2GetInteger: values of type `V` as they are.
-pub unsafe fn get<M: Model, V: Value + Copy>(
+/// fmi2GetReal, fmi2GetInteger: values of kind `K` as they are.
+pub unsafe fn get<M: Model, K: Kind<Value: Copy>>(
     c: Component,
     function: F,
     references: *const ValueReference,
     n: usize,
-    values: *mut V,
+    values: *mut K::Value,
 ) -> Status {
     // SAFETY: the importer's contract.
     unsafe {
-        guard::<M>(c, function, |instance| {
+        guard::<M, _>(c, function, |instance| {
             let references = known(array(references, n), "vr")?;
             let values = known(array_mut(values, n), "value")?;
-            instance.get::<V>(references, |i, value| values[i] = value)
+            instance.get::<K>(references, |i, value| values[i] = value)
         })
     }
 }
 
-/// fmi2SetReal, fmi2SetInteger: values of type `V` as they are.
-pub unsafe fn set<M: Model, V: Value + Copy>(
+/// fmi2SetReal, fmi2SetInteger: values of kind `K` as they are.
+pub unsafe fn set<M: Model, K: Kind<Value: Copy>>(
     c: Component,
     function: F,
     references: *const ValueReference,
     n: usize,
-    values: *const V,
+    values: *const K::Value,
 ) -> Status {
     // SAFETY: the importer's contract.
     unsafe {
-        guard::<M>(c, function, |instance| {
+        guard::<M, _>(c, function, |instance| {
             let references = known(array(references, n), "vr")?;
             let values = known(array(values, n), "value")?;
-            instance.set::<V>(references, |i| Ok(values[i]))
+            instance.set::<K>(references, |i| Ok(values[i]))
         })
     }
 }
@@ -53,10 +55,10 @@ pub unsafe fn get_boolean<M: Model>(
 ) -> Status {
     // SAFETY: the importer's contract.
     unsafe {
-        guard::<M>(c, F::fmi2GetBoolean, |instance| {
+        guard::<M, _>(c, F::fmi2GetBoolean, |instance| {
             let references = known(array(references, n), "vr")?;
             let values = known(array_mut(values, n), "value")?;
-            instance.get::<bool>(references, |i, value| values[i] = value.into())
+            instance.get::<kind::Boolean>(references, |i, value| values[i] = value.into())
         })
     }
 }
@@ -70,10 +72,10 @@ pub unsafe fn set_boolean<M: Model>(
 ) -> Status {
     // SAFETY: the importer's contract.
     unsafe {
-        guard::<M>(c, F::fmi2SetBoolean, |instance| {
+        guard::<M, _>(c, F::fmi2SetBoolean, |instance| {
             let references = known(array(references, n), "vr")?;
             let values = known(array(values, n), "value")?;
-            instance.set::<bool>(references, |i| boolean(values[i]))
+            instance.set::<kind::Boolean>(references, |i| boolean(values[i]))
         })
     }
 }
@@ -87,11 +89,11 @@ pub unsafe fn get_string<M: Model>(
 ) -> Status {
     // SAFETY: the importer's contract.
     unsafe {
-        guard::<M>(c, F::fmi2GetString, |instance| {
+        guard::<M, _>(c, F::fmi2GetString, |instance| {
             let references = known(array(references, n), "vr")?;
             let values = known(array_mut(values, n), "value")?;
             let mut strings = Vec::new(); // not n: the references are checked one by one
-            instance.get::<String>(references, |_, text| {
+            instance.get::<kind::Text>(references, |_, text| {
                 strings.push(CString::new(text.replace('\0', "")).unwrap_or_default());
             })?;
             instance.strings = strings;
@@ -113,10 +115,10 @@ pub unsafe fn set_string<M: Model>(
 ) -> Status {
     // SAFETY: the importer's contract.
     unsafe {
-        guard::<M>(c, F::fmi2SetString, |instance| {
+        guard::<M, _>(c, F::fmi2SetString, |instance| {
             let references = known(array(references, n), "vr")?;
             let values = known(array(values, n), "value")?;
-            instance.set::<String>(references, |i| {
+            instance.set::<kind::Text>(references, |i| {
                 string(values[i]).map(str::to_owned).ok_or(NoValue::Text)
             })
         })

@@ -1,0 +1,209 @@
+//! Variables by value reference: section 2.2.6. A value reference stands for all elements of its row.
+
+use crate::access::{NoValue, boolean};
+use crate::failure::Failure;
+use crate::ffi::fmi3::*;
+use crate::ffi::{array, array_mut, string};
+use crate::functions::known;
+use crate::guard::guard;
+use crate::instance::{Instance, refused};
+use crate::kind::{Kind, fmi3 as kind};
+use crate::legality::fmi3::Function as F;
+use crate::model::Model;
+use std::ffi::CString;
+
+/// The references, once it is sure that the importer's array of values is as long as their variables' sizes add up to.
+///
+/// # Safety
+/// As for [`array`].
+unsafe fn references<'a, M: Model, K: Kind>(
+    instance: &Instance<M>,
+    references: *const ValueReference,
+    n: usize,
+    n_values: usize,
+) -> Result<&'a [ValueReference], Failure> {
+    // SAFETY: this function's contract.
+    let references = known(unsafe { array(references, n) }, "valueReferences")?;
+    let count = instance.count::<K>(references)?;
+    if n_values != count {
+        return refused(format!(
+            "nValues = {n_values}, expected {count}, the sum of the variables' sizes"
+        ));
+    }
+    Ok(references)
+}
+
+/// fmi3GetFloat64, fmi3GetInt32: values of kind `K` as they are.
+pub unsafe fn get<M: Model, K: Kind<Value: Copy>>(
+    c: Component,
+    function: F,
+    vr: *const ValueReference,
+    n: usize,
+    values: *mut K::Value,
+    n_values: usize,
+) -> Status {
+    // SAFETY: the importer's contract.
+    unsafe {
+        guard::<M, _>(c, function, |instance| {
+            let vr = references::<M, K>(instance, vr, n, n_values)?;
+            let values = known(array_mut(values, n_values), "values")?;
+            instance.get::<K>(vr, |i, value| values[i] = value)
+        })
+    }
+}
+
+/// fmi3SetFloat64, fmi3SetInt32: values of kind `K` as they are.
+pub unsafe fn set<M: Model, K: Kind<Value: Copy>>(
+    c: Component,
+    function: F,
+    vr: *const ValueReference,
+    n: usize,
+    values: *const K::Value,
+    n_values: usize,
+) -> Status {
+    // SAFETY: the importer's contract.
+    unsafe {
+        guard::<M, _>(c, function, |instance| {
+            let vr = references::<M, K>(instance, vr, n, n_values)?;
+            let values = known(array(values, n_values), "values")?;
+            instance.set::<K>(vr, |i| Ok(values[i]))
+        })
+    }
+}
+
+/// fmi3GetInt64: the items of enumerations.
+pub unsafe fn get_enumeration<M: Model>(
+    c: Component,
+    vr: *const ValueReference,
+    n: usize,
+    values: *mut i64,
+    n_values: usize,
+) -> Status {
+    // SAFETY: the importer's contract.
+    unsafe {
+        guard::<M, _>(c, F::fmi3GetInt64, |instance| {
+            let vr = references::<M, kind::Enumeration>(instance, vr, n, n_values)?;
+            let values = known(array_mut(values, n_values), "values")?;
+            instance.get::<kind::Enumeration>(vr, |i, value| values[i] = value.into())
+        })
+    }
+}
+
+/// fmi3SetInt64: the items of enumerations.
+pub unsafe fn set_enumeration<M: Model>(
+    c: Component,
+    vr: *const ValueReference,
+    n: usize,
+    values: *const i64,
+    n_values: usize,
+) -> Status {
+    // SAFETY: the importer's contract.
+    unsafe {
+        guard::<M, _>(c, F::fmi3SetInt64, |instance| {
+            let vr = references::<M, kind::Enumeration>(instance, vr, n, n_values)?;
+            let values = known(array(values, n_values), "values")?;
+            instance.set::<kind::Enumeration>(vr, |i| {
+                i32::try_from(values[i]).map_err(|_| NoValue::Item(values[i]))
+            })
+        })
+    }
+}
+
+/// fmi3GetBoolean: bytes 0 and 1.
+pub unsafe fn get_boolean<M: Model>(
+    c: Component,
+    vr: *const ValueReference,
+    n: usize,
+    values: *mut Boolean,
+    n_values: usize,
+) -> Status {
+    // SAFETY: the importer's contract.
+    unsafe {
+        guard::<M, _>(c, F::fmi3GetBoolean, |instance| {
+            let vr = references::<M, kind::Boolean>(instance, vr, n, n_values)?;
+            let values = known(array_mut(values, n_values), "values")?;
+            instance.get::<kind::Boolean>(vr, |i, value| values[i] = value.into())
+        })
+    }
+}
+
+/// fmi3SetBoolean: bytes 0 and 1; any other is refused.
+pub unsafe fn set_boolean<M: Model>(
+    c: Component,
+    vr: *const ValueReference,
+    n: usize,
+    values: *const Boolean,
+    n_values: usize,
+) -> Status {
+    // SAFETY: the importer's contract.
+    unsafe {
+        guard::<M, _>(c, F::fmi3SetBoolean, |instance| {
+            let vr = references::<M, kind::Boolean>(instance, vr, n, n_values)?;
+            let values = known(array(values, n_values), "values")?;
+            instance.set::<kind::Boolean>(vr, |i| boolean(values[i].into()))
+        })
+    }
+}
+
+/// fmi3GetString: the strings live until the next call of this function.
+pub unsafe fn get_string<M: Model>(
+    c: Component,
+    vr: *const ValueReference,
+    n: usize,
+    values: *mut FmiString,
+    n_values: usize,
+) -> Status {
+    // SAFETY: the importer's contract.
+    unsafe {
+        guard::<M, _>(c, F::fmi3GetString, |instance| {
+            let vr = references::<M, kind::Text>(instance, vr, n, n_values)?;
+            let values = known(array_mut(values, n_values), "values")?;
+            let mut strings = Vec::with_capacity(n_values);
+            instance.get::<kind::Text>(vr, |_, text| {
+                strings.push(CString::new(text.replace('\0', "")).unwrap_or_default());
+            })?;
+            instance.strings = strings;
+            values
+                .iter_mut()
+                .zip(&instance.strings)
+                .for_each(|(value, text)| *value = text.as_ptr());
+            Ok(())
+        })
+    }
+}
+
+/// fmi3SetString
+pub unsafe fn set_string<M: Model>(
+    c: Component,
+    vr: *const ValueReference,
+    n: usize,
+    values: *const FmiString,
+    n_values: usize,
+) -> Status {
+    // SAFETY: the importer's contract.
+    unsafe {
+        guard::<M, _>(c, F::fmi3SetString, |instance| {
+            let vr = references::<M, kind::Text>(instance, vr, n, n_values)?;
+            let values = known(array(values, n_values), "values")?;
+            instance.set::<kind::Text>(vr, |i| {
+                string(values[i]).map(str::to_owned).ok_or(NoValue::Text)
+            })
+        })
+    }
+}
+
+/// The functions of a type that no row has: every reference is refused with its variable's name.
+pub unsafe fn absent<M: Model, K: Kind>(
+    c: Component,
+    function: F,
+    vr: *const ValueReference,
+    n: usize,
+    n_values: usize,
+) -> Status {
+    // SAFETY: the importer's contract.
+    unsafe {
+        guard::<M, _>(c, function, |instance| {
+            references::<M, K>(instance, vr, n, n_values).map(|_| ())
+        })
+    }
+}
