@@ -69,6 +69,10 @@ def names() -> tuple[str, ...]:
     return tuple(sorted(path.stem for path in (ROOT / "modelDescription").glob("*.xml")))
 
 
+#: The models with a clock: those that have a description for scheduled execution.
+NAMES_SCHEDULED = tuple(sorted(path.stem for path in (ROOT / "modelDescription" / "fmi3" / "scheduled").glob("*.xml")))
+
+
 def load() -> Matrix:
     """`matrix.toml` as it is now."""
     tables = tomllib.loads(Path(__file__).with_name("matrix.toml").read_text(encoding="utf-8"))
