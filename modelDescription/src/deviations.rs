@@ -22,10 +22,13 @@ const FMI2: [&str; 7] = [
 ];
 
 /// From FMI 3.0, sections 2.3, 4.2 and 5.2.
-const FMI3: [&str; 2] = [
+const FMI3: [&str; 4] = [
     "A refused call (wrong argument, order, value or state bytes) returns <code>fmi3Error</code>, changes nothing and does not end \
      the run. Only a failed step or a caught panic does: then <code>fmi3Reset</code>, <code>fmi3SetFMUState</code> or \
      <code>fmi3FreeInstance</code> must follow.",
+    "<code>fmi3Warning</code>, <code>fmi3Discard</code> and <code>fmi3Fatal</code> are never returned. What is unsupported returns \
+     <code>fmi3Error</code> and says so.",
+    "Variables can be read after they were set, without a step or an activation between: they show what was set.",
     "A step may go past the stop time: importers end a run by a rounding past it.",
 ];
 

@@ -1,5 +1,8 @@
 """The FMI 3.0 twins: valid for the schemas and for fmpy, and the same numbers as the FMI 2.0 archives, bit for bit."""
 
+import re
+import subprocess
+import sys
 import zipfile
 from collections.abc import Mapping
 from ctypes import c_double, c_int, c_uint32
@@ -17,6 +20,7 @@ from exo import scenario as scenarios
 from exo.fmu import Archive
 from exo.simulate import plan, simulate
 
+from foreign import box3
 from foreign.matrix import NAMES_SCHEDULED, ROOT, names
 from foreign.record import SETTINGS, record
 from foreign.runs import by_calls, product
@@ -195,6 +199,36 @@ def test_a_scenario_with_the_twins_is_the_recording_of_the_harness(
     assert len(expected) >= 40
     assert set(expected) == set(found)
     assert apart(found, expected) == []
+
+
+@pytest.mark.parametrize("system_of", box3.BOXES)
+def test_a_container_links_arrays_whole_and_gives_what_the_harness_records_of_fmi_2(
+    system_of: str, fmu_dir: Path, archives: Mapping[str, Archive], tmp_path: Path
+) -> None:
+    box = box3.BOXES[system_of]
+    recording = simulate(plan=box.plan(1.0), archives=archives)
+    assert max(np.ptp(column) for key, column in recording.columns.items() if re.search(r"^plant\..*q", key)) > 0.01
+    found = box3.run(box, 1.0, fmu_dir / "fmi3", tmp_path)
+    assert apart(found, {key: recording.columns[key] for key in found}) == []
+    assert len(found) >= 40
+
+
+def test_every_twin_is_in_a_container() -> None:
+    files = {file for box in box3.BOXES.values() for file in box.components.values()}
+    assert files == {f"{name}.fmu" for name in names()}
+
+
+def test_fmutool_finds_nothing(archive3: Path) -> None:
+    answer = subprocess.run(
+        [sys.executable, "-m", "fmu_manipulation_toolbox.cli.fmutool", "-input", archive3, "-check"],
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    said = answer.stdout + answer.stderr
+    assert answer.returncode == 0, said
+    assert "No semantic error against the FMI-3 standard." in said
+    assert not any(word in said for word in ("ERROR", "WARNING", "CRITICAL")), said
 
 
 def test_the_clock_is_told_by_the_library_as_the_description_has_it(fmu_dir: Path) -> None:
