@@ -8,7 +8,6 @@ use crate::legality::Phase;
 use crate::model::{Model, Refusal};
 use crate::provenance::text;
 use fmu_declaration::{Access, Causality, Enumeration, Place, Provenance, Variable};
-use std::ops::Range;
 
 /// A value of the interface, and what a row demands of it.
 pub trait Value: fmu_declaration::Value {
@@ -194,13 +193,12 @@ fn another_type<T, K: Kind>(name: &str, reference: ValueReference) -> Result<T, 
     ))
 }
 
-/// The row and the elements that a value reference stands for in the interface of `K`.
+/// The row that a value reference stands for in the interface of `K`, and its first element.
 #[inline]
-fn find<K: Kind, M: Model>(
-    reference: ValueReference,
-) -> Option<(&'static Variable<M>, Range<usize>)> {
-    let (row, element) = M::DESCRIPTION.find(reference)?;
-    Some((row, K::elements(row, element)?))
+fn find<K: Kind, M: Model>(reference: ValueReference) -> Option<(&'static Variable<M>, usize)> {
+    M::DESCRIPTION
+        .find(reference)
+        .filter(|&(_, element)| K::SCALAR || element == 0)
 }
 
 /// Why a variable cannot be set in this phase, if it cannot.
@@ -238,9 +236,9 @@ impl<M: Model> Instance<M> {
         let mut count = 0;
         for &reference in references {
             count += match find::<K, M>(reference) {
-                Some((row, elements)) if K::at(&row.access).is_some() => elements.len(),
-                Some((row, elements)) => {
-                    return another_type::<_, K>(&shown::<K, M>(row, elements.start), reference);
+                Some((row, _)) if K::at(&row.access).is_some() => K::len(row),
+                Some((row, element)) => {
+                    return another_type::<_, K>(&shown::<K, M>(row, element), reference);
                 }
                 None => self.without_row::<K>(reference).map(|_| 1)?,
             };
@@ -263,27 +261,19 @@ impl<M: Model> Instance<M> {
         let mut next = 0;
         for (i, &reference) in references.iter().enumerate() {
             let first = if K::SCALAR { i } else { next };
-            next = match find::<K, M>(reference) {
-                Some((row, elements)) => match K::at(&row.access) {
-                    Some(at) => {
-                        let end = first + elements.len();
-                        elements
-                            .zip(first..)
-                            .for_each(|(element, i)| put(i, at.get(&self.now.model, element)));
-                        end
-                    }
-                    None => {
-                        return another_type::<_, K>(
-                            &shown::<K, M>(row, elements.start),
-                            reference,
-                        );
-                    }
-                },
-                None => {
-                    put(first, self.without_row::<K>(reference)?);
-                    first + 1
-                }
+            let Some((row, element)) = find::<K, M>(reference) else {
+                put(first, self.without_row::<K>(reference)?);
+                next = first + 1;
+                continue;
             };
+            let Some(at) = K::at(&row.access) else {
+                return another_type::<_, K>(&shown::<K, M>(row, element), reference);
+            };
+            K::visit(row, element, first, |element, i| {
+                put(i, at.get(&self.now.model, element));
+                None::<()>
+            });
+            next = first + K::len(row);
         }
         Ok(())
     }
@@ -299,7 +289,7 @@ impl<M: Model> Instance<M> {
         let mut tuned = false;
         let mut next = 0;
         for (i, &reference) in references.iter().enumerate() {
-            let Some((variable, elements)) = find::<K, M>(reference) else {
+            let Some((variable, element)) = find::<K, M>(reference) else {
                 return match Provenance::find(reference) {
                     Some(of) => refused(format!("{} {COMPUTED}", of.name())),
                     None if reference == TIME && !K::SCALAR => {
@@ -309,19 +299,20 @@ impl<M: Model> Instance<M> {
                 };
             };
             if K::at(&variable.access).is_none() {
-                return another_type::<_, K>(&shown::<K, M>(variable, elements.start), reference);
+                return another_type::<_, K>(&shown::<K, M>(variable, element), reference);
             }
             let first = if K::SCALAR { i } else { next };
-            next = first + elements.len();
-            for (element, i) in elements.zip(first..) {
+            next = first + K::len(variable);
+            let objection = K::visit(variable, element, first, |element, i| {
                 let objection = match (not_settable(variable, phase), value(i)) {
                     (Some(reason), _) => Some(reason.to_owned()),
                     (None, Err(none)) => Some(none.objection(variable)),
                     (None, Ok(value)) => value.objection(variable),
                 };
-                if let Some(objection) = objection {
-                    return refused(format!("{} {objection}", variable.element_name(element)));
-                }
+                objection.map(|objection| (element, objection))
+            });
+            if let Some((element, objection)) = objection {
+                return refused(format!("{} {objection}", variable.element_name(element)));
             }
             tuned |= variable.is_tunable();
         }
@@ -329,19 +320,20 @@ impl<M: Model> Instance<M> {
         let before = tuned_in_run.then(|| self.now.model.clone());
         let mut next = 0;
         for (i, &reference) in references.iter().enumerate() {
-            let Some((row, elements)) = find::<K, M>(reference) else {
+            let Some((row, element)) = find::<K, M>(reference) else {
                 continue;
             };
             let first = if K::SCALAR { i } else { next };
-            next = first + elements.len();
+            next = first + K::len(row);
             let Some(at) = K::at(&row.access) else {
                 continue;
             };
-            for (element, i) in elements.zip(first..) {
+            K::visit(row, element, first, |element, i| {
                 if let Ok(value) = value(i) {
                     at.set(&mut self.now.model, element, value);
                 }
-            }
+                None::<()>
+            });
         }
         self.stale |= phase == Phase::InitializationMode;
         if let Some(before) = before {

@@ -59,22 +59,21 @@ impl Clock {
     /// # Errors
     /// A sentence with the name of the argument, its value and what was expected.
     pub fn step(&self, t: f64, h: f64) -> Result<Step, String> {
+        self.next(t, h).map_err(|why| self.sentence(why, t, h))
+    }
+
+    /// The same, without words.
+    #[inline]
+    pub(crate) fn next(&self, t: f64, h: f64) -> Result<Step, NotNext> {
         if !(h.is_normal() && h > 0.0) {
-            return Err(format!(
-                "communicationStepSize = {h:?} s, expected a finite normal number above 0"
-            ));
+            return Err(NotNext::Size);
         }
-        let expected = self.time;
-        let tolerance = SAME_POINT * h + ROUNDINGS * f64::EPSILON * expected.abs();
-        if !(t.is_finite() && (t - expected).abs() <= tolerance) {
-            return Err(format!(
-                "expected currentCommunicationPoint {expected} s, got {t} s"
-            ));
+        let tolerance = SAME_POINT * h + ROUNDINGS * f64::EPSILON * self.time.abs();
+        if !(t.is_finite() && (t - self.time).abs() <= tolerance) {
+            return Err(NotNext::Point);
         }
         if t + h <= t || !(t + h).is_finite() || !(self.elapsed() + h).is_finite() {
-            return Err(format!(
-                "communicationStepSize = {h} s does not advance the time {t} s to a later finite time"
-            ));
+            return Err(NotNext::End);
         }
         Ok(Step {
             start_time: self.start_time,
@@ -82,6 +81,23 @@ impl Clock {
             h,
             elapsed: self.elapsed(),
         })
+    }
+
+    /// What is wrong with a step, in the words of fmi2DoStep and fmi3DoStep.
+    #[cold]
+    pub(crate) fn sentence(&self, why: NotNext, t: f64, h: f64) -> String {
+        match why {
+            NotNext::Size => format!(
+                "communicationStepSize = {h:?} s, expected a finite normal number above 0"
+            ),
+            NotNext::Point => {
+                let expected = self.time;
+                format!("expected currentCommunicationPoint {expected} s, got {t} s")
+            }
+            NotNext::End => format!(
+                "communicationStepSize = {h} s does not advance the time {t} s to a later finite time"
+            ),
+        }
     }
 
     /// Counts a step that was made.
@@ -142,6 +158,17 @@ impl Clock {
             "{name} = {count}, expected {expected:.0} periods of {period:?} s in the {elapsed:?} s since the start"
         )))
     }
+}
+
+/// Why a step cannot follow.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum NotNext {
+    /// Its size is none.
+    Size,
+    /// It begins elsewhere.
+    Point,
+    /// It ends nowhere later.
+    End,
 }
 
 /// Compensated sum: `low` is what rounding took from `high`, so that a hundred million steps are off by less than one

@@ -3,7 +3,7 @@
 use crate::failure::{Failure, Outcome};
 use crate::ffi::{Component, Status};
 use crate::instance::Instance;
-use crate::legality::Call;
+use crate::legality::{Call, Interface};
 use crate::model::Model;
 use std::cell::RefCell;
 use std::fmt::Write as _;
@@ -27,10 +27,14 @@ pub unsafe fn guard<M: Model, F: Call>(
     };
     // `#[repr(C)]` in Instance keeps nothing of it half-changed: refused calls change nothing, broken ones are marked.
     let outcome = catch_unwind(AssertUnwindSafe(|| {
-        let state = F::state(instance.phase(), instance.is_scheduled());
+        let state = F::state(instance.phase(), instance.interface());
         // A function that is legal in no state says itself what is missing.
         if !function.legal_in().contains(&state) && !function.legal_in().is_empty() {
-            return Err(Failure::Refused(not_legal(function, state)));
+            return Err(Failure::Refused(not_legal(
+                function,
+                state,
+                instance.interface(),
+            )));
         }
         call(instance)
     }))
@@ -41,37 +45,48 @@ pub unsafe fn guard<M: Model, F: Call>(
         )))
     });
 
-    let Err(failure) = outcome else {
-        return Status::Ok;
-    };
+    match outcome {
+        Ok(()) => Status::Ok,
+        Err(failure) => failed(instance, function, failure),
+    }
+}
+
+/// Logs why a call failed, and marks an instance whose model broke.
+#[cold]
+fn failed<M: Model, F: Call>(
+    instance: &mut Instance<M>,
+    function: F,
+    failure: Failure,
+) -> Status {
+    let (name, ways_out) = (
+        function.name(instance.interface()),
+        instance.interface().ways_out(),
+    );
     // Logging calls the importer and allocates; neither may let a panic out.
     let _ = catch_unwind(AssertUnwindSafe(|| match failure {
-        Failure::Refused(reason) => instance
-            .log()
-            .error(format_args!("{}: {reason}", function.name())),
+        Failure::Refused(reason) => instance.log().error(format_args!("{name}: {reason}")),
         Failure::Broken(reason) => {
             instance.enter_error();
             instance.log().error(format_args!(
-                "{}: {reason}; the instance needs {}",
-                function.name(),
-                F::WAYS_OUT
+                "{name}: {reason}; the instance needs {ways_out}"
             ));
         }
     }));
     Status::Error
 }
 
-fn not_legal<F: Call>(function: F, state: F::State) -> String {
+#[cold]
+fn not_legal<F: Call>(function: F, state: F::State, interface: Interface) -> String {
     let mut text = format!(
         "not legal in the phase '{}', expected ",
-        F::state_name(state)
+        F::state_name(state, interface)
     );
     for (i, &legal) in function.legal_in().iter().enumerate() {
         let _ = write!(
             text,
             "{}'{}'",
             if i == 0 { "" } else { " or " },
-            F::state_name(legal)
+            F::state_name(legal, interface)
         );
     }
     text

@@ -1,13 +1,12 @@
 //! One instance of a model: life cycle, steps, FMU state. Access to variables is in [`crate::access`].
 
-use crate::clock::Clock;
+use crate::clock::{Clock, NotNext};
 use crate::failure::{Failure, Outcome};
-use crate::legality::Phase;
+use crate::legality::{Interface, Phase};
 use crate::log::{self, Category, Enabled, Log, Sink};
 use crate::model::Model;
 use crate::outputs::Outputs;
 use crate::snapshot::Snapshot;
-use crate::time::Step;
 use std::ffi::{CStr, CString};
 use std::path::PathBuf;
 
@@ -17,8 +16,7 @@ pub struct Instance<M: Model> {
     name: CString,
     enabled: Enabled,
     resources: Option<PathBuf>,
-    /// Whether the importer activates the clock, by FMI 3.0, instead of making steps.
-    scheduled: bool,
+    interface: Interface,
     /// What an FMU state holds.
     pub(crate) now: Snapshot<M>,
     /// In Initialization Mode: something was set since the model was last initialized.
@@ -35,7 +33,7 @@ impl<M: Model> Instance<M> {
         name: CString,
         enabled: Enabled,
         resources: Option<PathBuf>,
-        scheduled: bool,
+        interface: Interface,
     ) -> Self {
         let now = Snapshot {
             phase: Phase::Instantiated,
@@ -47,7 +45,7 @@ impl<M: Model> Instance<M> {
             name,
             enabled,
             resources,
-            scheduled,
+            interface,
             now,
             stale: false,
             outputs: Outputs::new(),
@@ -62,9 +60,9 @@ impl<M: Model> Instance<M> {
         self.now.phase
     }
 
-    /// Whether the importer activates the clock instead of making steps.
-    pub fn is_scheduled(&self) -> bool {
-        self.scheduled
+    /// What is called on it.
+    pub fn interface(&self) -> Interface {
+        self.interface
     }
 
     pub(crate) fn enter_error(&mut self) {
@@ -197,24 +195,12 @@ impl<M: Model> Instance<M> {
         Ok(())
     }
 
-    /// fmi2DoStep, fmi3DoStep
-    pub(crate) fn do_step(&mut self, t: f64, h: f64) -> Outcome {
-        let step = self.now.clock.step(t, h)?;
-        self.advance(step)
-    }
-
-    /// fmi3ActivateModelPartition: the sample at `t` (s), and what holds until the next one is due.
-    pub(crate) fn activate(&mut self, t: f64) -> Outcome {
-        let period = M::DESCRIPTION.experiment.step;
-        let step = self.now.clock.step(t, period);
-        let expected = self.now.clock.time();
-        let step = step.map_err(|_| {
-            format!("activationTime = {t:?} s, expected {expected:?} s: the clock is activated every {period:?} s")
-        })?;
-        self.advance(step)
-    }
-
-    fn advance(&mut self, step: Step) -> Outcome {
+    /// fmi2DoStep, fmi3DoStep, fmi3ActivateModelPartition: the step from `t` of `h` (s).
+    pub(crate) fn step(&mut self, t: f64, h: f64) -> Outcome {
+        let step = match self.now.clock.next(t, h) {
+            Ok(step) => step,
+            Err(why) => return Err(self.not_next(why, t, h)),
+        };
         self.now.model.accepts(&step).map_err(|refusal| refusal.0)?;
         let (model, mut log) = self.model_and_log();
         model
@@ -225,6 +211,19 @@ impl<M: Model> Instance<M> {
             .map_err(Failure::Broken)?;
         self.now.clock.advance(&step);
         Ok(())
+    }
+
+    /// Why a step cannot follow, in the words of the function.
+    #[cold]
+    fn not_next(&self, why: NotNext, t: f64, h: f64) -> Failure {
+        let clock = &self.now.clock;
+        Failure::Refused(match self.interface {
+            Interface::Fmi2 | Interface::CoSimulation => clock.sentence(why, t, h),
+            Interface::ScheduledExecution => {
+                let expected = clock.time();
+                format!("activationTime = {t:?} s, expected {expected:?} s: the clock is activated every {h:?} s")
+            }
+        })
     }
 
     /// fmi2SetFMUstate, fmi3SetFMUState
@@ -255,8 +254,8 @@ pub(crate) fn instance_name(name: Option<&str>) -> CString {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Refusal;
     use crate::access::Value;
+    use crate::{Refusal, Step};
     use fmu_declaration::Variability::Continuous;
     use fmu_declaration::{Declare, Description, Experiment, Stepping, real, unit};
 

@@ -4,7 +4,6 @@
 
 use crate::access::Value;
 use fmu_declaration::{Access, Place, Variable};
-use std::ops::Range;
 
 /// The value reference of the clock that FMI 3.0's scheduled execution has; it has no row.
 pub const CLOCK: u32 = 0xFFFF_FFFE;
@@ -24,14 +23,26 @@ pub trait Kind {
     /// Where the row's values are, if the row is of this type.
     fn at<M>(access: &Access<M>) -> Option<&Place<M, Self::Value>>;
 
-    /// The elements that a value reference stands for, if it stands for any: `element` is the one that FMI 2.0 finds.
+    /// Calls `visit(element, i)` for each element that a value reference stands for, where `element` is the one that FMI 2.0
+    /// finds, and `first` the number of its value among all of the call, until one gives something.
     #[inline]
-    fn elements<M>(row: &Variable<M>, element: usize) -> Option<Range<usize>> {
-        match (Self::SCALAR, element) {
-            (true, _) => Some(element..element + 1),
-            (false, 0) => Some(0..row.len),
-            (false, _) => None,
+    fn visit<M, T>(
+        row: &Variable<M>,
+        element: usize,
+        first: usize,
+        mut visit: impl FnMut(usize, usize) -> Option<T>,
+    ) -> Option<T> {
+        if Self::SCALAR {
+            visit(element, first)
+        } else {
+            (0..row.len).find_map(|element| visit(element, first + element))
         }
+    }
+
+    /// How many elements a value reference stands for.
+    #[inline]
+    fn len<M>(row: &Variable<M>) -> usize {
+        if Self::SCALAR { 1 } else { row.len }
     }
 }
 

@@ -102,8 +102,8 @@ fn of_a_run<M: Model>() -> u64 {
             unsafe {
                 let status = fmi2::set::<M, kind::Real>(c, set, i.as_ptr(), i.len(), values.as_ptr());
                 assert_eq!(status, Status::Ok);
-                assert_eq!(f::do_step::<M>(c, t, 0.002, 1), Status::Ok);
-                let status = f::get::<M, f64>(c, get, o.as_ptr(), o.len(), got.as_mut_ptr());
+                assert_eq!(fmi2::do_step::<M>(c, t, 0.002, 1), Status::Ok);
+                let status = fmi2::get::<M, kind::Real>(c, get, o.as_ptr(), o.len(), got.as_mut_ptr());
                 assert_eq!(status, Status::Ok);
             }
             assert!(got.iter().all(|value| value.is_finite()));

@@ -15,9 +15,11 @@ pub mod fmi2;
 pub mod fmi3;
 mod lifecycle;
 mod states;
+mod steps;
 
 pub use lifecycle::*;
 pub use states::*;
+pub use steps::*;
 
 use crate::failure::Failure;
 use crate::ffi::{Component, Status};

@@ -16,7 +16,7 @@ pub unsafe fn get_fmu_state<M: Model, F: Call>(
     // SAFETY: the importer's contract; one model per library.
     unsafe {
         guard::<M, F>(c, function, |instance| {
-            let slot = known(state.as_mut(), F::FMU_STATE)?;
+            let slot = known(state.as_mut(), instance.interface().fmu_state())?;
             handle::put(slot, instance.now.clone());
             Ok(())
         })
@@ -30,7 +30,7 @@ pub unsafe fn set_fmu_state<M: Model, F: Call>(
     // SAFETY: the importer's contract; one model per library.
     unsafe {
         guard::<M, F>(c, function, |instance| {
-            let snapshot = known(handle::get::<M>(state), F::FMU_STATE)?;
+            let snapshot = known(handle::get::<M>(state), instance.interface().fmu_state())?;
             instance.restore(snapshot)
         })
     }
@@ -42,12 +42,12 @@ pub unsafe fn free_fmu_state<M: Model, F: Call>(
     function: F, state: *mut FmuState) -> Status {
     // SAFETY: the importer's contract; one model per library.
     unsafe {
-        guard::<M, F>(c, function, |_| match state.as_mut() {
+        guard::<M, F>(c, function, |instance| match state.as_mut() {
             Some(slot) if !slot.is_null() => {
                 if !handle::free::<M>(*slot) {
                     return refused(format!(
                         "{} is not a state of this FMU, or was freed before",
-                        F::FMU_STATE
+                        instance.interface().fmu_state()
                     ));
                 }
                 *slot = std::ptr::null_mut();
@@ -67,9 +67,9 @@ pub unsafe fn serialized_fmu_state_size<M: Model, F: Call>(
 ) -> Status {
     // SAFETY: the importer's contract; one model per library.
     unsafe {
-        guard::<M, F>(c, function, |_| {
+        guard::<M, F>(c, function, |instance| {
             let size = known(size.as_mut(), "size")?;
-            *size = known(handle::get::<M>(state), F::FMU_STATE)?
+            *size = known(handle::get::<M>(state), instance.interface().fmu_state())?
                 .to_bytes()?
                 .len();
             Ok(())
@@ -87,9 +87,9 @@ pub unsafe fn serialize_fmu_state<M: Model, F: Call>(
 ) -> Status {
     // SAFETY: the importer's contract; one model per library.
     unsafe {
-        guard::<M, F>(c, function, |_| {
+        guard::<M, F>(c, function, |instance| {
             let target = known(array_mut(bytes, size), "serializedState")?;
-            let source = known(handle::get::<M>(state), F::FMU_STATE)?.to_bytes()?;
+            let source = known(handle::get::<M>(state), instance.interface().fmu_state())?.to_bytes()?;
             let Some(target) = target.get_mut(..source.len()) else {
                 return refused(format!(
                     "size = {size}, expected at least {} bytes",
@@ -112,9 +112,9 @@ pub unsafe fn deserialize_fmu_state<M: Model, F: Call>(
 ) -> Status {
     // SAFETY: the importer's contract; one model per library.
     unsafe {
-        guard::<M, F>(c, function, |_| {
+        guard::<M, F>(c, function, |instance| {
             let bytes = known(array(bytes, size), "serializedState")?;
-            let slot = known(state.as_mut(), F::FMU_STATE)?;
+            let slot = known(state.as_mut(), instance.interface().fmu_state())?;
             handle::put(slot, Snapshot::<M>::from_bytes(bytes)?);
             Ok(())
         })

@@ -11,15 +11,13 @@
 //!   too (the standard: not there), where the last successful time is what one wants to know; the other status functions
 //!   and `fmi2CancelStep` (the standard: while a step is pending only) are refused anyway, with what is not supported.
 
-use super::{Call, Phase, table};
+use super::{Call, Interface, Phase, table};
 
 impl Call for Function {
     type State = Phase;
-    const FMU_STATE: &'static str = "FMUstate";
-    const WAYS_OUT: &'static str = "fmi2Reset, fmi2SetFMUstate or fmi2FreeInstance";
 
     #[inline]
-    fn name(self) -> &'static str {
+    fn name(self, _: Interface) -> &'static str {
         Self::name(self)
     }
 
@@ -29,11 +27,11 @@ impl Call for Function {
     }
 
     #[inline]
-    fn state(phase: Phase, _: bool) -> Phase {
+    fn state(phase: Phase, _: Interface) -> Phase {
         phase
     }
 
-    fn state_name(state: Phase) -> &'static str {
+    fn state_name(state: Phase, _: Interface) -> &'static str {
         state.name()
     }
 }

@@ -16,7 +16,7 @@
 //! * Get is accepted after Set without a step or an activation between them, and shows what was set;
 //! * `fmi3DoStep` past a defined stop time is made, as by FMI 2.0.
 
-use super::{Call, Phase, table};
+use super::{Call, Interface, Phase, table};
 
 /// Where an instance is in its life, in the words of FMI 3.0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -48,11 +48,9 @@ impl State {
 
 impl Call for Function {
     type State = State;
-    const FMU_STATE: &'static str = "FMUState";
-    const WAYS_OUT: &'static str = "fmi3Reset, fmi3SetFMUState or fmi3FreeInstance";
 
     #[inline]
-    fn name(self) -> &'static str {
+    fn name(self, _: Interface) -> &'static str {
         Self::name(self)
     }
 
@@ -62,17 +60,17 @@ impl Call for Function {
     }
 
     #[inline]
-    fn state(phase: Phase, scheduled: bool) -> State {
+    fn state(phase: Phase, interface: Interface) -> State {
         match phase {
             Phase::Instantiated => State::Instantiated,
             Phase::InitializationMode => State::InitializationMode,
-            Phase::StepComplete if scheduled => State::ClockActivationMode,
+            Phase::StepComplete if interface == Interface::ScheduledExecution => State::ClockActivationMode,
             Phase::StepComplete => State::StepMode,
             Phase::Terminated | Phase::Error => State::Terminated,
         }
     }
 
-    fn state_name(state: State) -> &'static str {
+    fn state_name(state: State, _: Interface) -> &'static str {
         state.name()
     }
 }

@@ -62,8 +62,8 @@ macro_rules! export_fmi2 {
                     { functions::unsupported::<Model>(c, Function::fmi2SetRealInputDerivatives, "canInterpolateInputs is false") }
                 fn fmi2GetRealOutputDerivatives(c: Component, _vr: *const ValueReference, _n: usize, _order: *const Integer, _value: *mut Real) -> Status
                     { functions::unsupported::<Model>(c, Function::fmi2GetRealOutputDerivatives, "maxOutputDerivativeOrder is 0") }
-                fn fmi2DoStep(c: Component, t: Real, h: Real, no_set_prior: Boolean) -> Status
-                    { fmi2::do_step::<Model>(c, t, h, no_set_prior) }
+                fn fmi2DoStep(c: Component, t: Real, h: Real, _no_set_prior: Boolean) -> Status
+                    { functions::step::<Model>(c, t, h) }
                 fn fmi2CancelStep(c: Component) -> Status
                     { functions::unsupported::<Model>(c, Function::fmi2CancelStep, "canRunAsynchronuously is false") }
                 fn fmi2GetStatus(c: Component, _kind: StatusKind, _value: *mut Integer) -> Status

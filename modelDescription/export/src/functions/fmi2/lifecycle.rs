@@ -5,6 +5,7 @@ use crate::ffi::string;
 use crate::guard::{guard, install_panic_hook};
 use crate::identity::Identity;
 use crate::instance::{Instance, instance_name};
+use crate::legality::Interface;
 use crate::legality::fmi2::Function as F;
 use crate::log::{Enabled, Log, Sink};
 use crate::model::Model;
@@ -64,7 +65,7 @@ pub unsafe fn instantiate<M: Model>(
         }
         let resources = resources.ok().flatten();
         Box::into_raw(Box::new(Instance::<M>::new(
-            sink, label, enabled, resources, false,
+            sink, label, enabled, resources, Interface::Fmi2,
         )))
         .cast()
     }))
@@ -88,10 +89,4 @@ pub unsafe fn setup_experiment<M: Model>(
             instance.setup_experiment(tolerance, start_time, stop)
         })
     }
-}
-
-/// fmi2DoStep
-pub unsafe fn do_step<M: Model>(c: Component, t: Real, h: Real, _no_set_prior: Boolean) -> Status {
-    // SAFETY: the importer's contract.
-    unsafe { guard::<M, _>(c, F::fmi2DoStep, |instance| instance.do_step(t, h)) }
 }

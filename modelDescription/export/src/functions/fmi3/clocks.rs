@@ -7,6 +7,7 @@ use crate::functions::known;
 use crate::guard::guard;
 use crate::instance::{Instance, refused};
 use crate::kind::CLOCK;
+use crate::legality::Interface;
 use crate::legality::fmi3::Function as F;
 use crate::model::Model;
 
@@ -14,7 +15,7 @@ use crate::model::Model;
 fn clocks<M: Model>(instance: &Instance<M>, references: &[ValueReference]) -> Outcome {
     let other = references
         .iter()
-        .find(|&&reference| reference != CLOCK || !instance.is_scheduled());
+        .find(|&&reference| reference != CLOCK || instance.interface() != Interface::ScheduledExecution);
     other.map_or(Ok(()), |reference| {
         refused(format!(
             "value reference {reference} is not that of a clock of {}",

@@ -5,6 +5,7 @@ use crate::ffi::string;
 use crate::guard::{guard, install_panic_hook};
 use crate::identity::Identity;
 use crate::instance::{Instance, instance_name};
+use crate::legality::Interface;
 use crate::legality::fmi3::Function as F;
 use crate::log::{Enabled, Log, Sink};
 use crate::model::Model;
@@ -42,7 +43,12 @@ pub unsafe fn instantiate_co_simulation<M: Model>(
         None
     };
     // SAFETY: the importer's contract.
-    unsafe { instantiate::<M>("fmi3InstantiateCoSimulation", &common, objection, false) }
+    unsafe { instantiate::<M>(
+            "fmi3InstantiateCoSimulation",
+            &common,
+            objection,
+            Interface::CoSimulation,
+        ) }
 }
 
 /// fmi3InstantiateScheduledExecution: null when refused, with the reason logged.
@@ -50,21 +56,31 @@ pub unsafe fn instantiate_scheduled_execution<M: Model>(common: Common) -> Compo
     let sampled = M::DESCRIPTION.stepping == Stepping::Sampled;
     let objection = (!sampled).then(|| "there is no clock: the model has no sample period".into());
     // SAFETY: the importer's contract.
-    unsafe { instantiate::<M>("fmi3InstantiateScheduledExecution", &common, objection, true) }
+    unsafe { instantiate::<M>(
+            "fmi3InstantiateScheduledExecution",
+            &common,
+            objection,
+            Interface::ScheduledExecution,
+        ) }
 }
 
 /// fmi3InstantiateModelExchange: null, with the reason logged.
 pub unsafe fn instantiate_model_exchange<M: Model>(common: Common) -> Component {
     let objection = Some("there is no Model Exchange, expected Co-Simulation".into());
     // SAFETY: the importer's contract.
-    unsafe { instantiate::<M>("fmi3InstantiateModelExchange", &common, objection, false) }
+    unsafe { instantiate::<M>(
+            "fmi3InstantiateModelExchange",
+            &common,
+            objection,
+            Interface::CoSimulation,
+        ) }
 }
 
 unsafe fn instantiate<M: Model>(
     function: &str,
     common: &Common,
     objection: Option<String>,
-    scheduled: bool,
+    interface: Interface,
 ) -> Component {
     install_panic_hook();
     catch_unwind(AssertUnwindSafe(|| {
@@ -108,7 +124,7 @@ unsafe fn instantiate<M: Model>(
             path => path.map(folder),
         };
         Box::into_raw(Box::new(Instance::<M>::new(
-            sink, label, enabled, resources, scheduled,
+            sink, label, enabled, resources, interface,
         )))
         .cast()
     }))
