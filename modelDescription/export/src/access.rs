@@ -8,6 +8,7 @@ use crate::legality::Phase;
 use crate::model::{Model, Refusal};
 use crate::provenance::text;
 use fmu_declaration::{Access, Causality, Enumeration, Place, Provenance, Variable};
+use std::convert::Infallible;
 
 /// A value of the interface, and what a row demands of it.
 pub trait Value: fmu_declaration::Value {
@@ -125,9 +126,8 @@ pub(crate) fn check<M: Model>(model: &M, causality: Causality) -> Result<(), Ref
         let objection = match &row.access {
             Access::Real { at, .. } => first(model, at, row),
             Access::Integer { at, .. } | Access::Enumeration { at, .. } => first(model, at, row),
-            Access::Boolean { at } => {
-                (0..row.len).find_map(|i| Some((i, boolean(at.word(model, i)).err()?.objection(row))))
-            }
+            Access::Boolean { at } => (0..row.len)
+                .find_map(|i| Some((i, boolean(at.word(model, i)).err()?.objection(row)))),
             Access::String { .. } => None,
         };
         if let Some((i, objection)) = objection {
@@ -138,27 +138,49 @@ pub(crate) fn check<M: Model>(model: &M, causality: Causality) -> Result<(), Ref
 }
 
 /// What was given for a value and is none.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum NoValue {
-    /// A Boolean other than 0 and 1. 0x100 may be a word that nobody wrote, and `engage` must not be on then. The C library
-    /// says the same.
-    Word(i32),
-    /// An integer that is no item of any enumeration: too large.
-    Item(i64),
-    /// A pointer that is null, or text in another encoding.
-    Text,
+pub(crate) trait NoValue {
+    /// What is wrong with it as a value of this row.
+    fn objection<M>(self, row: &Variable<M>) -> String;
 }
 
-impl NoValue {
-    /// What is wrong with it as a value of this row.
+/// Where all that can be given is a value.
+impl NoValue for Infallible {
+    fn objection<M>(self, _: &Variable<M>) -> String {
+        match self {}
+    }
+}
+
+/// A Boolean other than 0 and 1. 0x100 may be a word that nobody wrote, and `engage` must not be on then. The C library
+/// says the same.
+pub(crate) struct Word(i32);
+
+impl NoValue for Word {
+    #[cold]
+    fn objection<M>(self, _: &Variable<M>) -> String {
+        format!("= {}, expected 0 or 1", self.0)
+    }
+}
+
+/// An integer that is no item of any enumeration: too large.
+pub(crate) struct TooLarge(pub i64);
+
+impl NoValue for TooLarge {
     #[cold]
     fn objection<M>(self, row: &Variable<M>) -> String {
-        match (self, &row.access) {
-            (Self::Item(value), Access::Enumeration { of, .. }) => no_item(value, of),
-            (Self::Item(value), _) => format!("= {value}, expected an item"),
-            (Self::Word(word), _) => format!("= {word}, expected 0 or 1"),
-            (Self::Text, _) => "is null or not UTF-8, expected a UTF-8 string".into(),
+        match &row.access {
+            Access::Enumeration { of, .. } => no_item(self.0, of),
+            _ => format!("= {}, expected an item", self.0),
         }
+    }
+}
+
+/// A pointer that is null, or text in another encoding.
+pub(crate) struct NoText;
+
+impl NoValue for NoText {
+    #[cold]
+    fn objection<M>(self, _: &Variable<M>) -> String {
+        "is null or not UTF-8, expected a UTF-8 string".into()
     }
 }
 
@@ -166,11 +188,11 @@ impl NoValue {
 ///
 /// # Errors
 /// It stands for none.
-pub(crate) fn boolean(word: i32) -> Result<bool, NoValue> {
+pub(crate) fn boolean(word: i32) -> Result<bool, Word> {
     match word {
         0 => Ok(false),
         1 => Ok(true),
-        _ => Err(NoValue::Word(word)),
+        _ => Err(Word(word)),
     }
 }
 
@@ -221,7 +243,7 @@ impl<M: Model> Instance<M> {
         let (name, value) = match Provenance::find(reference) {
             Some(of) => (of.name(), K::Value::of_text(text(of))),
             None if reference == TIME && !K::SCALAR => {
-                ("time", K::Value::of_time(self.now.clock.time()))
+                ("time", K::Value::of_time(self.time()))
             }
             None => return unknown::<_, M>(reference),
         };
@@ -280,10 +302,10 @@ impl<M: Model> Instance<M> {
 
     /// The functions that set. `value(i)` is the i-th value in the order of the references, or why it is none. All values
     /// are checked before the first is written.
-    pub(crate) fn set<K: Kind>(
+    pub(crate) fn set<K: Kind, E: NoValue>(
         &mut self,
         references: &[ValueReference],
-        value: impl Fn(usize) -> Result<K::Value, NoValue>,
+        value: impl Fn(usize) -> Result<K::Value, E>,
     ) -> Outcome {
         let phase = self.now.phase;
         let mut tuned = false;

@@ -87,9 +87,9 @@ impl Clock {
     #[cold]
     pub(crate) fn sentence(&self, why: NotNext, t: f64, h: f64) -> String {
         match why {
-            NotNext::Size => format!(
-                "communicationStepSize = {h:?} s, expected a finite normal number above 0"
-            ),
+            NotNext::Size => {
+                format!("communicationStepSize = {h:?} s, expected a finite normal number above 0")
+            }
             NotNext::Point => {
                 let expected = self.time;
                 format!("expected currentCommunicationPoint {expected} s, got {t} s")

@@ -53,11 +53,7 @@ pub unsafe fn guard<M: Model, F: Call>(
 
 /// Logs why a call failed, and marks an instance whose model broke.
 #[cold]
-fn failed<M: Model, F: Call>(
-    instance: &mut Instance<M>,
-    function: F,
-    failure: Failure,
-) -> Status {
+fn failed<M: Model, F: Call>(instance: &mut Instance<M>, function: F, failure: Failure) -> Status {
     let (name, ways_out) = (
         function.name(instance.interface()),
         instance.interface().ways_out(),

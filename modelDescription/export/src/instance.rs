@@ -213,6 +213,17 @@ impl<M: Model> Instance<M> {
         Ok(())
     }
 
+    /// The independent variable: the end of the last step, or the time of the last activation, to a rounding (s).
+    pub(crate) fn time(&self) -> f64 {
+        let clock = &self.now.clock;
+        match self.interface {
+            Interface::ScheduledExecution if clock.elapsed() > 0.0 => {
+                clock.time() - M::DESCRIPTION.experiment.step
+            }
+            _ => clock.time(),
+        }
+    }
+
     /// Why a step cannot follow, in the words of the function.
     #[cold]
     fn not_next(&self, why: NotNext, t: f64, h: f64) -> Failure {
@@ -221,7 +232,9 @@ impl<M: Model> Instance<M> {
             Interface::Fmi2 | Interface::CoSimulation => clock.sentence(why, t, h),
             Interface::ScheduledExecution => {
                 let expected = clock.time();
-                format!("activationTime = {t:?} s, expected {expected:?} s: the clock is activated every {h:?} s")
+                format!(
+                    "activationTime = {t:?} s, expected {expected:?} s: the clock is activated every {h:?} s"
+                )
             }
         })
     }

@@ -28,12 +28,14 @@
 //! | [`rights`] | which variable may be set or got in which phase |
 //! | [`calls`] | every function with good arguments |
 //! | [`sequence`] | random calls in random order |
+//! | [`fmi3`] | the same libraries through the functions of FMI 3.0 |
 //!
 //! `src/bin/native_loop.rs` is the harness's zero-delay loop without the harness; `src/bin/call_sequences.rs` plays random
 //! calls.
 
 pub mod calls;
 pub mod description;
+pub mod fmi3;
 pub mod fmu;
 pub mod instance;
 pub mod lag;

@@ -5,10 +5,10 @@ use std::ffi::c_int;
 use std::path::Path;
 
 macro_rules! functions {
-    ($($(#[$doc:meta])* fn $name:ident($($type:ty),*) $(-> $result:ty)?;)*) => {
+    ($Library:ident, $count:literal: $($(#[$doc:meta])* fn $name:ident($($type:ty),*) $(-> $result:ty)?;)*) => {
         /// A loaded shared library with its functions under their C names. Dropping it closes the library.
         #[allow(non_snake_case, reason = "the C names of the standard")]
-        pub struct Library {
+        pub struct $Library {
             $(
                 #[doc = concat!("`", stringify!($name), "`")]
                 pub $name: unsafe extern "C" fn($($type),*) $(-> $result)?,
@@ -16,9 +16,9 @@ macro_rules! functions {
             _library: libloading::Library,
         }
 
-        impl Library {
+        impl $Library {
             /// The names of all functions, those that are not called on an instance last.
-            pub const FUNCTIONS: [&'static str; 34] = [$(stringify!($name)),*];
+            pub const FUNCTIONS: [&'static str; $count] = [$(stringify!($name)),*];
 
             /// Loads a library and looks up every function.
             ///
@@ -30,7 +30,7 @@ macro_rules! functions {
                 let library = unsafe { libloading::Library::new(path) }
                     .unwrap_or_else(|e| panic!("{} cannot be loaded: {e}", path.display()));
                 $(
-                    // SAFETY: the type is the one that fmi2FunctionTypes.h gives to this name; the library is kept
+                    // SAFETY: the type is the one that the standard gives to this name; the library is kept
                     // as long as the pointer.
                     let $name = *unsafe { library.get(concat!(stringify!($name), "\0").as_bytes()) }
                         .unwrap_or_else(|e| panic!("{} lacks {}: {e}", path.display(), stringify!($name)));
@@ -40,8 +40,11 @@ macro_rules! functions {
         }
     };
 }
+pub(crate) use functions;
 
 functions! {
+    Library, 34:
+
     fn fmi2SetDebugLogging(Component, Boolean, usize, *const FmiString) -> Status;
     fn fmi2FreeInstance(Component);
     fn fmi2SetupExperiment(Component, Boolean, Real, Real, Boolean, Real) -> Status;

@@ -54,6 +54,16 @@ pub extern "C" fn logger(
         .push(message);
 }
 
+/// The logger of FMI 3.0, which says no instance name.
+pub extern "C" fn log_message(
+    environment: *mut c_void,
+    status: c_int,
+    category: FmiString,
+    text: FmiString,
+) {
+    logger(environment, c"".as_ptr(), status, category, text);
+}
+
 /// A copy of a C string, which must be UTF-8; null is shown as such, so that an assertion on the text fails.
 #[allow(
     clippy::not_unsafe_ptr_arg_deref,

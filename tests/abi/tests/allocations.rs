@@ -6,10 +6,11 @@ use catalogue::table::SETTINGS;
 use counting::{Counting, allocations};
 use fmu_archive::Interface;
 use fmu_archive::entry::Kind;
-use fmu_declaration::Causality;
+use fmu_declaration::{Causality, Stepping};
 use fmu_export::ffi::fmi2::{CO_SIMULATION, Callbacks, Component, Status};
-use fmu_export::functions::fmi2::{self, kind};
 use fmu_export::functions as f;
+use fmu_export::functions::fmi2::{self, kind};
+use fmu_export::functions::fmi3;
 use fmu_export::legality::fmi2::Function;
 use fmu_export::model::Model;
 use std::ffi::CString;
@@ -42,8 +43,14 @@ fn initialized<M: Model>() -> Component {
             );
             assert_eq!(status, Status::Ok);
         }
-        assert_eq!(f::enter_initialization_mode::<M>(c, Function::fmi2EnterInitializationMode), Status::Ok);
-        assert_eq!(f::exit_initialization_mode::<M>(c, Function::fmi2ExitInitializationMode), Status::Ok);
+        assert_eq!(
+            f::enter_initialization_mode::<M>(c, Function::fmi2EnterInitializationMode),
+            Status::Ok
+        );
+        assert_eq!(
+            f::exit_initialization_mode::<M>(c, Function::fmi2ExitInitializationMode),
+            Status::Ok
+        );
         c
     }
 }
@@ -100,10 +107,12 @@ fn of_a_run<M: Model>() -> u64 {
             let before: f64 = got.iter().sum();
             // SAFETY: arrays of the lengths that are passed; the component is live and used by this thread only.
             unsafe {
-                let status = fmi2::set::<M, kind::Real>(c, set, i.as_ptr(), i.len(), values.as_ptr());
+                let status =
+                    fmi2::set::<M, kind::Real>(c, set, i.as_ptr(), i.len(), values.as_ptr());
                 assert_eq!(status, Status::Ok);
-                assert_eq!(fmi2::do_step::<M>(c, t, 0.002, 1), Status::Ok);
-                let status = fmi2::get::<M, kind::Real>(c, get, o.as_ptr(), o.len(), got.as_mut_ptr());
+                assert_eq!(f::step::<M>(c, t, 0.002), Status::Ok);
+                let status =
+                    fmi2::get::<M, kind::Real>(c, get, o.as_ptr(), o.len(), got.as_mut_ptr());
                 assert_eq!(status, Status::Ok);
             }
             assert!(got.iter().all(|value| value.is_finite()));
@@ -136,4 +145,105 @@ fn the_counter_sees_an_instance_and_a_single_box() {
         allocations(|| drop(std::hint::black_box(Box::new(1_u8)))).0,
         2
     );
+}
+
+/// Allocations of 1000 times set, step, get of all Real inputs and outputs by FMI 3.0; an activation is a step where the
+/// model has a sample period.
+fn of_a_run_by_fmi_3<M: Model>(scheduled: bool) -> u64 {
+    use fmu_export::ffi::fmi3::Logger;
+    use fmu_export::legality::fmi3::Function as F;
+    let token = CString::new(M::DESCRIPTION.guid()).expect("no null byte");
+    let common = fmi3::Common {
+        name: c"name".as_ptr(),
+        token: token.as_ptr(),
+        resources: std::ptr::null(),
+        logging: 0,
+        logger: Logger {
+            log_message: None,
+            environment: std::ptr::null_mut(),
+        },
+    };
+    // SAFETY: all pointers outlive the call; the component is used by this thread only.
+    let c = unsafe {
+        let c = match scheduled {
+            true => fmi3::instantiate_scheduled_execution::<M>(common),
+            false => fmi3::instantiate_co_simulation::<M>(common, 0, 0),
+        };
+        assert!(!c.is_null());
+        let entered = fmi3::enter_initialization_mode::<M>(c, 0, 0.0, 0.0, 0, 0.0);
+        assert_eq!(entered, Status::Ok);
+        let left = f::exit_initialization_mode::<M>(c, F::fmi3ExitInitializationMode);
+        assert_eq!(left, Status::Ok);
+        c
+    };
+    let rows = |causality| -> (Vec<u32>, usize) {
+        let scalars = reals::<M>(causality);
+        let first = scalars
+            .iter()
+            .filter(|(reference, ..)| reference % 256 == 0);
+        (
+            first.map(|(reference, ..)| *reference).collect(),
+            scalars.len(),
+        )
+    };
+    let ((i, inputs), (o, outputs)) = (rows(Causality::Input), rows(Causality::Output));
+    let (mut values, mut got) = (vec![0.0; inputs], vec![0.0; outputs]);
+    let period = M::DESCRIPTION.experiment.step;
+    let (mut event, mut terminate, mut early, mut last) = (7, 7, 7, 0.0);
+    let (n, ()) = allocations(|| {
+        for k in 0..1000 {
+            let t = last;
+            values.fill(0.01 * (f64::from(k) * period).sin());
+            // SAFETY: arrays of the lengths that are passed; the component is live and used by this thread only.
+            unsafe {
+                let (set, get) = (F::fmi3SetFloat64, F::fmi3GetFloat64);
+                let (vr, v) = (i.as_ptr(), values.as_ptr());
+                let status = fmi3::set::<M, fmi3::kind::Float64>(c, set, vr, i.len(), v, inputs);
+                assert_eq!(status, Status::Ok);
+                let status = if scheduled {
+                    last = f64::from(k + 1) * period;
+                    fmi3::activate_model_partition::<M>(c, 0xFFFF_FFFE, t)
+                } else {
+                    let (e, t1, r, l) = (
+                        &raw mut event,
+                        &raw mut terminate,
+                        &raw mut early,
+                        &raw mut last,
+                    );
+                    fmi3::do_step::<M>(c, t, period, 1, e, t1, r, l)
+                };
+                assert_eq!(status, Status::Ok);
+                let (vr, v) = (o.as_ptr(), got.as_mut_ptr());
+                let status = fmi3::get::<M, fmi3::kind::Float64>(c, get, vr, o.len(), v, outputs);
+                assert_eq!(status, Status::Ok);
+            }
+        }
+    });
+    assert!(
+        got.iter().any(|value| *value != 0.0),
+        "{}",
+        M::DESCRIPTION.name
+    );
+    // SAFETY: the component is live and not used again.
+    unsafe { f::free_instance::<M>(c) };
+    n
+}
+
+macro_rules! of_each_run_by_fmi_3 {
+    ($($crate_name:ident::$Type:ident, picture $picture:literal;)*) => {
+        [$({
+            use fmu_declaration::Declare;
+            let sampled = $crate_name::$Type::DESCRIPTION.stepping == Stepping::Sampled;
+            let steps = of_a_run_by_fmi_3::<$crate_name::$Type>(false);
+            let activations = if sampled { of_a_run_by_fmi_3::<$crate_name::$Type>(true) } else { 0 };
+            (stringify!($Type), steps, activations)
+        }),*]
+    };
+}
+
+#[test]
+fn steps_and_activations_by_fmi_3_allocate_nothing() {
+    for (name, steps, activations) in fmus::each!(of_each_run_by_fmi_3) {
+        assert_eq!((steps, activations), (0, 0), "{name}");
+    }
 }

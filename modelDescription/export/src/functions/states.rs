@@ -12,7 +12,9 @@ use crate::snapshot::Snapshot;
 /// fmi2GetFMUstate, fmi3GetFMUState
 pub unsafe fn get_fmu_state<M: Model, F: Call>(
     c: Component,
-    function: F, state: *mut FmuState) -> Status {
+    function: F,
+    state: *mut FmuState,
+) -> Status {
     // SAFETY: the importer's contract; one model per library.
     unsafe {
         guard::<M, F>(c, function, |instance| {
@@ -26,7 +28,9 @@ pub unsafe fn get_fmu_state<M: Model, F: Call>(
 /// fmi2SetFMUstate, fmi3SetFMUState
 pub unsafe fn set_fmu_state<M: Model, F: Call>(
     c: Component,
-    function: F, state: FmuState) -> Status {
+    function: F,
+    state: FmuState,
+) -> Status {
     // SAFETY: the importer's contract; one model per library.
     unsafe {
         guard::<M, F>(c, function, |instance| {
@@ -39,7 +43,9 @@ pub unsafe fn set_fmu_state<M: Model, F: Call>(
 /// fmi2FreeFMUstate, fmi3FreeFMUState: null is allowed, also inside.
 pub unsafe fn free_fmu_state<M: Model, F: Call>(
     c: Component,
-    function: F, state: *mut FmuState) -> Status {
+    function: F,
+    state: *mut FmuState,
+) -> Status {
     // SAFETY: the importer's contract; one model per library.
     unsafe {
         guard::<M, F>(c, function, |instance| match state.as_mut() {
@@ -89,7 +95,8 @@ pub unsafe fn serialize_fmu_state<M: Model, F: Call>(
     unsafe {
         guard::<M, F>(c, function, |instance| {
             let target = known(array_mut(bytes, size), "serializedState")?;
-            let source = known(handle::get::<M>(state), instance.interface().fmu_state())?.to_bytes()?;
+            let source =
+                known(handle::get::<M>(state), instance.interface().fmu_state())?.to_bytes()?;
             let Some(target) = target.get_mut(..source.len()) else {
                 return refused(format!(
                     "size = {size}, expected at least {} bytes",

@@ -64,7 +64,9 @@ impl Call for Function {
         match phase {
             Phase::Instantiated => State::Instantiated,
             Phase::InitializationMode => State::InitializationMode,
-            Phase::StepComplete if interface == Interface::ScheduledExecution => State::ClockActivationMode,
+            Phase::StepComplete if interface == Interface::ScheduledExecution => {
+                State::ClockActivationMode
+            }
             Phase::StepComplete => State::StepMode,
             Phase::Terminated | Phase::Error => State::Terminated,
         }

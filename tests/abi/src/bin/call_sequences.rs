@@ -5,6 +5,8 @@
 //! call_sequences --fmu NAME --replay N,N,…
 //! ```
 //!
+//! A quarter as many calls are played by FMI 3.0 afterwards, each beside its like of FMI 2.0 (`abi::fmi3::mirror`).
+//!
 //! Exit code 0, or 1 with the shortest failing sequence and how to play it again on stderr.
 
 use abi::Fmu;
@@ -96,10 +98,17 @@ fn run(arguments: &Arguments) -> Result<Tally, String> {
         total: arguments.calls,
         shown: 0,
     };
-    search(&subject, arguments.calls, arguments.seed, |done| {
+    let tally = search(&subject, arguments.calls, arguments.seed, |done| {
         bar.show(done);
     })
-    .map_err(|finding: Finding| finding.report(&subject, arguments.seed))
+    .map_err(|finding: Finding| finding.report(&subject, arguments.seed))?;
+    let fmi3 = abi::fmi3::Fmu::new(Fmu::named(&arguments.fmu));
+    let played = abi::fmi3::mirror::play(&fmi3, arguments.calls / 4, arguments.seed)?;
+    println!(
+        "{}: {} calls by FMI 3.0 as by FMI 2.0, {} of them accepted, {} steps failed",
+        arguments.fmu, played.calls, played.accepted, played.broken
+    );
+    Ok(tally)
 }
 
 fn main() -> ExitCode {

@@ -65,7 +65,11 @@ pub unsafe fn instantiate<M: Model>(
         }
         let resources = resources.ok().flatten();
         Box::into_raw(Box::new(Instance::<M>::new(
-            sink, label, enabled, resources, Interface::Fmi2,
+            sink,
+            label,
+            enabled,
+            resources,
+            Interface::Fmi2,
         )))
         .cast()
     }))

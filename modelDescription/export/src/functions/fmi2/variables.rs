@@ -1,6 +1,6 @@
 //! Variables by value reference: section 2.1.7.
 
-use crate::access::{NoValue, boolean};
+use crate::access::{NoText, boolean};
 use crate::ffi::fmi2::*;
 use crate::ffi::{array, array_mut, string};
 use crate::functions::known;
@@ -8,6 +8,7 @@ use crate::guard::guard;
 use crate::kind::{Kind, fmi2 as kind};
 use crate::legality::fmi2::Function as F;
 use crate::model::Model;
+use std::convert::Infallible;
 use std::ffi::CString;
 
 /// fmi2GetReal, fmi2GetInteger: values of kind `K` as they are.
@@ -41,7 +42,7 @@ pub unsafe fn set<M: Model, K: Kind<Value: Copy>>(
         guard::<M, _>(c, function, |instance| {
             let references = known(array(references, n), "vr")?;
             let values = known(array(values, n), "value")?;
-            instance.set::<K>(references, |i| Ok(values[i]))
+            instance.set::<K, Infallible>(references, |i| Ok(values[i]))
         })
     }
 }
@@ -75,7 +76,7 @@ pub unsafe fn set_boolean<M: Model>(
         guard::<M, _>(c, F::fmi2SetBoolean, |instance| {
             let references = known(array(references, n), "vr")?;
             let values = known(array(values, n), "value")?;
-            instance.set::<kind::Boolean>(references, |i| boolean(values[i]))
+            instance.set::<kind::Boolean, _>(references, |i| boolean(values[i]))
         })
     }
 }
@@ -118,8 +119,8 @@ pub unsafe fn set_string<M: Model>(
         guard::<M, _>(c, F::fmi2SetString, |instance| {
             let references = known(array(references, n), "vr")?;
             let values = known(array(values, n), "value")?;
-            instance.set::<kind::Text>(references, |i| {
-                string(values[i]).map(str::to_owned).ok_or(NoValue::Text)
+            instance.set::<kind::Text, _>(references, |i| {
+                string(values[i]).map(str::to_owned).ok_or(NoText)
             })
         })
     }

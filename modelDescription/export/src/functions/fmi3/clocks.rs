@@ -13,9 +13,9 @@ use crate::model::Model;
 
 /// Refuses references that are none of a clock.
 fn clocks<M: Model>(instance: &Instance<M>, references: &[ValueReference]) -> Outcome {
-    let other = references
-        .iter()
-        .find(|&&reference| reference != CLOCK || instance.interface() != Interface::ScheduledExecution);
+    let other = references.iter().find(|&&reference| {
+        reference != CLOCK || instance.interface() != Interface::ScheduledExecution
+    });
     other.map_or(Ok(()), |reference| {
         refused(format!(
             "value reference {reference} is not that of a clock of {}",

@@ -43,12 +43,14 @@ pub unsafe fn instantiate_co_simulation<M: Model>(
         None
     };
     // SAFETY: the importer's contract.
-    unsafe { instantiate::<M>(
+    unsafe {
+        instantiate::<M>(
             "fmi3InstantiateCoSimulation",
             &common,
             objection,
             Interface::CoSimulation,
-        ) }
+        )
+    }
 }
 
 /// fmi3InstantiateScheduledExecution: null when refused, with the reason logged.
@@ -56,24 +58,28 @@ pub unsafe fn instantiate_scheduled_execution<M: Model>(common: Common) -> Compo
     let sampled = M::DESCRIPTION.stepping == Stepping::Sampled;
     let objection = (!sampled).then(|| "there is no clock: the model has no sample period".into());
     // SAFETY: the importer's contract.
-    unsafe { instantiate::<M>(
+    unsafe {
+        instantiate::<M>(
             "fmi3InstantiateScheduledExecution",
             &common,
             objection,
             Interface::ScheduledExecution,
-        ) }
+        )
+    }
 }
 
 /// fmi3InstantiateModelExchange: null, with the reason logged.
 pub unsafe fn instantiate_model_exchange<M: Model>(common: Common) -> Component {
     let objection = Some("there is no Model Exchange, expected Co-Simulation".into());
     // SAFETY: the importer's contract.
-    unsafe { instantiate::<M>(
+    unsafe {
+        instantiate::<M>(
             "fmi3InstantiateModelExchange",
             &common,
             objection,
             Interface::CoSimulation,
-        ) }
+        )
+    }
 }
 
 unsafe fn instantiate<M: Model>(

@@ -1,6 +1,6 @@
 //! Variables by value reference: section 2.2.6. A value reference stands for all elements of its row.
 
-use crate::access::{NoValue, boolean};
+use crate::access::{NoText, TooLarge, boolean};
 use crate::failure::Failure;
 use crate::ffi::fmi3::*;
 use crate::ffi::{array, array_mut, string};
@@ -10,6 +10,7 @@ use crate::instance::{Instance, refused};
 use crate::kind::{Kind, fmi3 as kind};
 use crate::legality::fmi3::Function as F;
 use crate::model::Model;
+use std::convert::Infallible;
 use std::ffi::CString;
 
 /// The references, once it is sure that the importer's array of values is as long as their variables' sizes add up to.
@@ -66,7 +67,7 @@ pub unsafe fn set<M: Model, K: Kind<Value: Copy>>(
         guard::<M, _>(c, function, |instance| {
             let vr = references::<M, K>(instance, vr, n, n_values)?;
             let values = known(array(values, n_values), "values")?;
-            instance.set::<K>(vr, |i| Ok(values[i]))
+            instance.set::<K, Infallible>(vr, |i| Ok(values[i]))
         })
     }
 }
@@ -102,8 +103,8 @@ pub unsafe fn set_enumeration<M: Model>(
         guard::<M, _>(c, F::fmi3SetInt64, |instance| {
             let vr = references::<M, kind::Enumeration>(instance, vr, n, n_values)?;
             let values = known(array(values, n_values), "values")?;
-            instance.set::<kind::Enumeration>(vr, |i| {
-                i32::try_from(values[i]).map_err(|_| NoValue::Item(values[i]))
+            instance.set::<kind::Enumeration, _>(vr, |i| {
+                i32::try_from(values[i]).map_err(|_| TooLarge(values[i]))
             })
         })
     }
@@ -140,7 +141,7 @@ pub unsafe fn set_boolean<M: Model>(
         guard::<M, _>(c, F::fmi3SetBoolean, |instance| {
             let vr = references::<M, kind::Boolean>(instance, vr, n, n_values)?;
             let values = known(array(values, n_values), "values")?;
-            instance.set::<kind::Boolean>(vr, |i| boolean(values[i].into()))
+            instance.set::<kind::Boolean, _>(vr, |i| boolean(values[i].into()))
         })
     }
 }
@@ -185,9 +186,8 @@ pub unsafe fn set_string<M: Model>(
         guard::<M, _>(c, F::fmi3SetString, |instance| {
             let vr = references::<M, kind::Text>(instance, vr, n, n_values)?;
             let values = known(array(values, n_values), "values")?;
-            instance.set::<kind::Text>(vr, |i| {
-                string(values[i]).map(str::to_owned).ok_or(NoValue::Text)
-            })
+            instance
+                .set::<kind::Text, _>(vr, |i| string(values[i]).map(str::to_owned).ok_or(NoText))
         })
     }
 }

@@ -1,0 +1,388 @@
+//! One instance of an FMU by FMI 3.0; freed when dropped.
+
+use super::fmu::{Row, Type, Value};
+use super::library::Library;
+use super::types::*;
+use crate::messages::{Message, Messages, log_message, owned};
+use std::ffi::CString;
+use std::ptr::null;
+use std::sync::Arc;
+
+/// Which function makes an instance.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Interface {
+    /// fmi3InstantiateModelExchange
+    ModelExchange,
+    /// fmi3InstantiateCoSimulation
+    CoSimulation,
+    /// fmi3InstantiateScheduledExecution
+    ScheduledExecution,
+}
+
+/// What is passed to it.
+#[derive(Clone, Debug)]
+pub struct Setup {
+    /// Which function.
+    pub interface: Interface,
+    /// instanceName
+    pub name: String,
+    /// instantiationToken
+    pub token: String,
+    /// resourcePath; `None` is null.
+    pub resources: Option<String>,
+    /// loggingOn
+    pub logging: bool,
+    /// Whether a logger is given at all.
+    pub logger: bool,
+    /// eventModeUsed
+    pub event_mode: bool,
+    /// requiredIntermediateVariables
+    pub intermediate: Vec<Reference>,
+}
+
+impl Setup {
+    /// Co-simulation, no resources, everything logged.
+    pub fn new(name: &str, token: &str) -> Self {
+        Self {
+            interface: Interface::CoSimulation,
+            name: name.into(),
+            token: token.into(),
+            resources: None,
+            logging: true,
+            logger: true,
+            event_mode: false,
+            intermediate: Vec::new(),
+        }
+    }
+}
+
+/// An instance. Every method is one call of the C function of its name, unless it says otherwise.
+pub struct Instance {
+    library: Arc<Library>,
+    component: Component,
+    // Boxed: its address is known to the library.
+    messages: Box<Messages>,
+}
+
+impl Drop for Instance {
+    fn drop(&mut self) {
+        // SAFETY: the component came from a function that instantiates and is freed here only.
+        unsafe { (self.library.fmi3FreeInstance)(self.component) }
+    }
+}
+
+/// SAFETY of the calls below: the component is live, belongs to `library`, and is used by one thread; array arguments are
+/// slices of the length that is passed, or pointers that the caller of the method answers for.
+macro_rules! call {
+    ($self:ident.$function:ident($($argument:expr),*)) => {{
+        // SAFETY: see above.
+        unsafe { ($self.library.$function)($self.component, $($argument),*) }
+    }};
+}
+
+fn c(text: &str) -> CString {
+    CString::new(text).expect("no null byte in a test's string")
+}
+
+#[allow(
+    clippy::not_unsafe_ptr_arg_deref,
+    reason = "a state is passed on as it is; the libraries under test follow only those they handed out"
+)]
+impl Instance {
+    /// The function of the interface.
+    ///
+    /// # Errors
+    /// What was logged, when null was returned.
+    pub fn new(library: &Arc<Library>, setup: &Setup) -> Result<Self, Vec<Message>> {
+        let messages = Box::new(Messages::default());
+        let (name, token) = (c(&setup.name), c(&setup.token));
+        let (name, token) = (name.as_ptr(), token.as_ptr());
+        let resources = setup.resources.as_deref().map(c);
+        let resources = resources.as_ref().map_or(null(), |path| path.as_ptr());
+        let environment = (&raw const *messages).cast_mut().cast();
+        let logger = setup.logger.then_some(log_message as LogMessage);
+        let on = setup.logging.into();
+        // SAFETY: all strings live during the call; the environment lives as long as the instance.
+        let component = unsafe {
+            match setup.interface {
+                Interface::ModelExchange => (library.fmi3InstantiateModelExchange)(
+                    name,
+                    token,
+                    resources,
+                    0,
+                    on,
+                    environment,
+                    logger,
+                ),
+                Interface::CoSimulation => (library.fmi3InstantiateCoSimulation)(
+                    name,
+                    token,
+                    resources,
+                    0,
+                    on,
+                    setup.event_mode.into(),
+                    1,
+                    setup.intermediate.as_ptr(),
+                    setup.intermediate.len(),
+                    environment,
+                    logger,
+                    None,
+                ),
+                Interface::ScheduledExecution => (library.fmi3InstantiateScheduledExecution)(
+                    name,
+                    token,
+                    resources,
+                    0,
+                    on,
+                    environment,
+                    logger,
+                    None,
+                    None,
+                    None,
+                ),
+            }
+        };
+        if component.is_null() {
+            return Err(messages.take());
+        }
+        Ok(Self {
+            library: Arc::clone(library),
+            component,
+            messages,
+        })
+    }
+
+    /// The library, for calls with arguments that no safe method offers.
+    pub fn library(&self) -> &Library {
+        &self.library
+    }
+
+    /// The component, for calls with arguments that no safe method offers.
+    pub fn component(&self) -> Component {
+        self.component
+    }
+
+    /// Everything logged since the last call of this.
+    pub fn messages(&self) -> Vec<Message> {
+        self.messages.take()
+    }
+
+    /// The text of the one message logged since the last call.
+    ///
+    /// # Panics
+    /// When there was none or several.
+    pub fn message(&self) -> String {
+        let mut all = self.messages();
+        assert_eq!(all.len(), 1, "expected one message, got {all:?}");
+        all.remove(0).text
+    }
+
+    /// fmi3EnterInitializationMode without tolerance; `None` as stop time is undefined.
+    pub fn enter_initialization_mode(&self, start: f64, stop: Option<f64>) -> Status {
+        let (defined, stop) = (stop.is_some().into(), stop.unwrap_or_default());
+        call!(self.fmi3EnterInitializationMode(0, 0.0, start, defined, stop))
+    }
+
+    /// fmi3ExitInitializationMode
+    pub fn exit_initialization_mode(&self) -> Status {
+        call!(self.fmi3ExitInitializationMode())
+    }
+
+    /// From *Instantiated* through Initialization Mode.
+    ///
+    /// # Panics
+    /// When a call is refused.
+    pub fn initialize(&self, start: f64) {
+        let entered = self.enter_initialization_mode(start, None);
+        assert_eq!(entered, Status::OK, "{:?}", self.messages());
+        let left = self.exit_initialization_mode();
+        assert_eq!(left, Status::OK, "{:?}", self.messages());
+    }
+
+    /// fmi3DoStep.
+    ///
+    /// # Panics
+    /// When a step that was made reports an event, an end, an early return, or another time than its end.
+    pub fn step(&self, t: f64, h: f64) -> Status {
+        let (mut event, mut terminate, mut early, mut last) = (7, 7, 7, f64::NAN);
+        let status = call!(self.fmi3DoStep(
+            t,
+            h,
+            1,
+            &raw mut event,
+            &raw mut terminate,
+            &raw mut early,
+            &raw mut last
+        ));
+        if status == Status::OK {
+            assert_eq!((event, terminate, early), (0, 0, 0), "at {t} s");
+            assert_eq!(last.to_bits(), (t + h).to_bits(), "at {t} s");
+        }
+        status
+    }
+
+    /// fmi3ActivateModelPartition of the clock.
+    pub fn activate(&self, t: f64) -> Status {
+        call!(self.fmi3ActivateModelPartition(CLOCK, t))
+    }
+
+    /// fmi3Terminate
+    pub fn terminate(&self) -> Status {
+        call!(self.fmi3Terminate())
+    }
+
+    /// fmi3Reset
+    pub fn reset(&self) -> Status {
+        call!(self.fmi3Reset())
+    }
+
+    /// The function that gets values of the row's type.
+    ///
+    /// # Errors
+    /// The status that is not fmi3OK.
+    pub fn read(&self, row: &Row) -> Result<Vec<Value>, Status> {
+        let (n, vr) = (row.len(), &raw const row.reference);
+        macro_rules! get {
+            ($function:ident, $zero:expr, $value:expr) => {{
+                let mut values = vec![$zero; n];
+                let status = call!(self.$function(vr, 1, values.as_mut_ptr(), n));
+                (status, values.into_iter().map($value).collect())
+            }};
+        }
+        let (status, values) = match row.kind {
+            Type::Float64 => get!(fmi3GetFloat64, 0.0, Value::Number),
+            Type::Int32 => get!(fmi3GetInt32, 0, |value: i32| Value::Integer(value.into())),
+            Type::Enumeration => get!(fmi3GetInt64, 0, Value::Integer),
+            Type::Boolean => get!(fmi3GetBoolean, 7, Value::Truth),
+            Type::Text => get!(fmi3GetString, null(), |text| Value::Text(owned(text))),
+        };
+        match status {
+            Status::OK => Ok(values),
+            status => Err(status),
+        }
+    }
+
+    /// The function that sets values of the row's type.
+    ///
+    /// # Panics
+    /// When the values are of another type.
+    pub fn write(&self, row: &Row, values: &[Value]) -> Status {
+        let (n, vr) = (values.len(), &raw const row.reference);
+        let number = |value: &Value| match value {
+            Value::Number(value) => *value,
+            other => panic!("{} = {other:?}", row.name),
+        };
+        let integer = |value: &Value| match value {
+            Value::Integer(value) => *value,
+            Value::Truth(value) => (*value).into(),
+            other => panic!("{} = {other:?}", row.name),
+        };
+        match row.kind {
+            Type::Float64 => {
+                let values: Vec<_> = values.iter().map(number).collect();
+                call!(self.fmi3SetFloat64(vr, 1, values.as_ptr(), n))
+            }
+            Type::Int32 => {
+                let values: Vec<_> = values.iter().map(|value| integer(value) as i32).collect();
+                call!(self.fmi3SetInt32(vr, 1, values.as_ptr(), n))
+            }
+            Type::Enumeration => {
+                let values: Vec<_> = values.iter().map(integer).collect();
+                call!(self.fmi3SetInt64(vr, 1, values.as_ptr(), n))
+            }
+            Type::Boolean => {
+                let values: Vec<_> = values.iter().map(|value| integer(value) as u8).collect();
+                call!(self.fmi3SetBoolean(vr, 1, values.as_ptr(), n))
+            }
+            Type::Text => {
+                let texts = values.iter().map(|value| match value {
+                    Value::Text(text) => c(text),
+                    other => panic!("{} = {other:?}", row.name),
+                });
+                let texts: Vec<_> = texts.collect();
+                let pointers: Vec<_> = texts.iter().map(|text| text.as_ptr()).collect();
+                call!(self.fmi3SetString(vr, 1, pointers.as_ptr(), n))
+            }
+        }
+    }
+
+    /// fmi3GetFloat64 of the independent variable.
+    ///
+    /// # Panics
+    /// When it is refused.
+    pub fn time(&self) -> f64 {
+        let (reference, mut time) = (TIME, f64::NAN);
+        let status = call!(self.fmi3GetFloat64(&raw const reference, 1, &raw mut time, 1));
+        assert_eq!(status, Status::OK, "{:?}", self.messages());
+        time
+    }
+
+    /// fmi3GetFMUState into a new state.
+    ///
+    /// # Panics
+    /// When it is refused.
+    pub fn state(&self) -> FmuState {
+        let mut state = std::ptr::null_mut();
+        let status = call!(self.fmi3GetFMUState(&raw mut state));
+        assert_eq!(status, Status::OK, "{:?}", self.messages());
+        state
+    }
+
+    /// fmi3SetFMUState
+    pub fn set_state(&self, state: FmuState) -> Status {
+        call!(self.fmi3SetFMUState(state))
+    }
+
+    /// fmi3FreeFMUState
+    pub fn free_state(&self, state: &mut FmuState) -> Status {
+        call!(self.fmi3FreeFMUState(&raw mut *state))
+    }
+
+    /// fmi3SerializedFMUStateSize and fmi3SerializeFMUState.
+    ///
+    /// # Panics
+    /// When one is refused.
+    pub fn serialize(&self, state: FmuState) -> Vec<u8> {
+        let mut size = 0;
+        let status = call!(self.fmi3SerializedFMUStateSize(state, &raw mut size));
+        assert_eq!(status, Status::OK, "{:?}", self.messages());
+        let mut bytes = vec![0_u8; size];
+        let status = call!(self.fmi3SerializeFMUState(state, bytes.as_mut_ptr(), size));
+        assert_eq!(status, Status::OK, "{:?}", self.messages());
+        bytes
+    }
+
+    /// fmi3DeserializeFMUState into a new state.
+    ///
+    /// # Errors
+    /// The status that is not fmi3OK.
+    pub fn deserialize(&self, bytes: &[u8]) -> Result<FmuState, Status> {
+        let mut state = std::ptr::null_mut();
+        match call!(self.fmi3DeserializeFMUState(bytes.as_ptr(), bytes.len(), &raw mut state)) {
+            Status::OK => Ok(state),
+            status => Err(status),
+        }
+    }
+
+    /// The whole state as bytes: what two runs must share bit for bit.
+    ///
+    /// # Panics
+    /// When a call is refused.
+    pub fn bytes(&self) -> Vec<u8> {
+        let mut state = self.state();
+        let bytes = self.serialize(state);
+        assert_eq!(self.free_state(&mut state), Status::OK);
+        bytes
+    }
+
+    /// Goes on from bytes of [`bytes`](Self::bytes), of either version of the standard.
+    pub fn restore(&self, bytes: &[u8]) -> Status {
+        let mut state = match self.deserialize(bytes) {
+            Ok(state) => state,
+            Err(status) => return status,
+        };
+        let status = self.set_state(state);
+        assert_eq!(self.free_state(&mut state), Status::OK);
+        status
+    }
+}

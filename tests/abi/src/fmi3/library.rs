@@ -1,0 +1,86 @@
+//! The 75 functions of FMI 3.0 in a shared library.
+
+use super::types::*;
+use crate::library::functions;
+use std::ffi::{c_int, c_void};
+use std::path::Path;
+
+functions! {
+    Library, 75:
+
+    fn fmi3SetDebugLogging(Component, Boolean, usize, *const FmiString) -> Status;
+    fn fmi3FreeInstance(Component);
+    fn fmi3EnterInitializationMode(Component, Boolean, f64, f64, Boolean, f64) -> Status;
+    fn fmi3ExitInitializationMode(Component) -> Status;
+    fn fmi3EnterEventMode(Component) -> Status;
+    fn fmi3Terminate(Component) -> Status;
+    fn fmi3Reset(Component) -> Status;
+    fn fmi3GetFloat32(Component, *const Reference, usize, *mut f32, usize) -> Status;
+    fn fmi3GetFloat64(Component, *const Reference, usize, *mut f64, usize) -> Status;
+    fn fmi3GetInt8(Component, *const Reference, usize, *mut i8, usize) -> Status;
+    fn fmi3GetUInt8(Component, *const Reference, usize, *mut u8, usize) -> Status;
+    fn fmi3GetInt16(Component, *const Reference, usize, *mut i16, usize) -> Status;
+    fn fmi3GetUInt16(Component, *const Reference, usize, *mut u16, usize) -> Status;
+    fn fmi3GetInt32(Component, *const Reference, usize, *mut i32, usize) -> Status;
+    fn fmi3GetUInt32(Component, *const Reference, usize, *mut u32, usize) -> Status;
+    fn fmi3GetInt64(Component, *const Reference, usize, *mut i64, usize) -> Status;
+    fn fmi3GetUInt64(Component, *const Reference, usize, *mut u64, usize) -> Status;
+    fn fmi3GetBoolean(Component, *const Reference, usize, *mut Boolean, usize) -> Status;
+    fn fmi3GetString(Component, *const Reference, usize, *mut FmiString, usize) -> Status;
+    fn fmi3GetBinary(Component, *const Reference, usize, *mut usize, *mut Binary, usize) -> Status;
+    fn fmi3GetClock(Component, *const Reference, usize, *mut Boolean) -> Status;
+    fn fmi3SetFloat32(Component, *const Reference, usize, *const f32, usize) -> Status;
+    fn fmi3SetFloat64(Component, *const Reference, usize, *const f64, usize) -> Status;
+    fn fmi3SetInt8(Component, *const Reference, usize, *const i8, usize) -> Status;
+    fn fmi3SetUInt8(Component, *const Reference, usize, *const u8, usize) -> Status;
+    fn fmi3SetInt16(Component, *const Reference, usize, *const i16, usize) -> Status;
+    fn fmi3SetUInt16(Component, *const Reference, usize, *const u16, usize) -> Status;
+    fn fmi3SetInt32(Component, *const Reference, usize, *const i32, usize) -> Status;
+    fn fmi3SetUInt32(Component, *const Reference, usize, *const u32, usize) -> Status;
+    fn fmi3SetInt64(Component, *const Reference, usize, *const i64, usize) -> Status;
+    fn fmi3SetUInt64(Component, *const Reference, usize, *const u64, usize) -> Status;
+    fn fmi3SetBoolean(Component, *const Reference, usize, *const Boolean, usize) -> Status;
+    fn fmi3SetString(Component, *const Reference, usize, *const FmiString, usize) -> Status;
+    fn fmi3SetBinary(Component, *const Reference, usize, *const usize, *const Binary, usize) -> Status;
+    fn fmi3SetClock(Component, *const Reference, usize, *const Boolean) -> Status;
+    fn fmi3GetNumberOfVariableDependencies(Component, Reference, *mut usize) -> Status;
+    fn fmi3GetVariableDependencies(Component, Reference, *mut usize, *mut Reference, *mut usize, *mut c_int, usize) -> Status;
+    fn fmi3GetFMUState(Component, *mut FmuState) -> Status;
+    fn fmi3SetFMUState(Component, FmuState) -> Status;
+    fn fmi3FreeFMUState(Component, *mut FmuState) -> Status;
+    fn fmi3SerializedFMUStateSize(Component, FmuState, *mut usize) -> Status;
+    fn fmi3SerializeFMUState(Component, FmuState, *mut u8, usize) -> Status;
+    fn fmi3DeserializeFMUState(Component, *const u8, usize, *mut FmuState) -> Status;
+    fn fmi3GetDirectionalDerivative(Component, *const Reference, usize, *const Reference, usize, *const f64, usize, *mut f64, usize) -> Status;
+    fn fmi3GetAdjointDerivative(Component, *const Reference, usize, *const Reference, usize, *const f64, usize, *mut f64, usize) -> Status;
+    fn fmi3EnterConfigurationMode(Component) -> Status;
+    fn fmi3ExitConfigurationMode(Component) -> Status;
+    fn fmi3GetIntervalDecimal(Component, *const Reference, usize, *mut f64, *mut Qualifier) -> Status;
+    fn fmi3GetIntervalFraction(Component, *const Reference, usize, *mut u64, *mut u64, *mut Qualifier) -> Status;
+    fn fmi3GetShiftDecimal(Component, *const Reference, usize, *mut f64) -> Status;
+    fn fmi3GetShiftFraction(Component, *const Reference, usize, *mut u64, *mut u64) -> Status;
+    fn fmi3SetIntervalDecimal(Component, *const Reference, usize, *const f64) -> Status;
+    fn fmi3SetIntervalFraction(Component, *const Reference, usize, *const u64, *const u64) -> Status;
+    fn fmi3SetShiftDecimal(Component, *const Reference, usize, *const f64) -> Status;
+    fn fmi3SetShiftFraction(Component, *const Reference, usize, *const u64, *const u64) -> Status;
+    fn fmi3EvaluateDiscreteStates(Component) -> Status;
+    fn fmi3UpdateDiscreteStates(Component, *mut Boolean, *mut Boolean, *mut Boolean, *mut Boolean, *mut Boolean, *mut f64) -> Status;
+    fn fmi3EnterContinuousTimeMode(Component) -> Status;
+    fn fmi3CompletedIntegratorStep(Component, Boolean, *mut Boolean, *mut Boolean) -> Status;
+    fn fmi3SetTime(Component, f64) -> Status;
+    fn fmi3SetContinuousStates(Component, *const f64, usize) -> Status;
+    fn fmi3GetContinuousStateDerivatives(Component, *mut f64, usize) -> Status;
+    fn fmi3GetEventIndicators(Component, *mut f64, usize) -> Status;
+    fn fmi3GetContinuousStates(Component, *mut f64, usize) -> Status;
+    fn fmi3GetNominalsOfContinuousStates(Component, *mut f64, usize) -> Status;
+    fn fmi3GetNumberOfEventIndicators(Component, *mut usize) -> Status;
+    fn fmi3GetNumberOfContinuousStates(Component, *mut usize) -> Status;
+    fn fmi3EnterStepMode(Component) -> Status;
+    fn fmi3GetOutputDerivatives(Component, *const Reference, usize, *const i32, *mut f64, usize) -> Status;
+    fn fmi3DoStep(Component, f64, f64, Boolean, *mut Boolean, *mut Boolean, *mut Boolean, *mut f64) -> Status;
+    fn fmi3ActivateModelPartition(Component, Reference, f64) -> Status;
+    fn fmi3InstantiateModelExchange(FmiString, FmiString, FmiString, Boolean, Boolean, *mut c_void, Option<LogMessage>) -> Component;
+    fn fmi3InstantiateCoSimulation(FmiString, FmiString, FmiString, Boolean, Boolean, Boolean, Boolean, *const Reference, usize, *mut c_void, Option<LogMessage>, Callback) -> Component;
+    fn fmi3InstantiateScheduledExecution(FmiString, FmiString, FmiString, Boolean, Boolean, *mut c_void, Option<LogMessage>, Callback, Callback, Callback) -> Component;
+    fn fmi3GetVersion() -> FmiString;
+}
