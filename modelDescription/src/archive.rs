@@ -1,6 +1,9 @@
 //! The `.fmu` archive: the same bytes for the same contents, on any machine and day.
 
-use crate::{Component, Guide, Interface, Package, Product, document, header, licences, sbom, xml};
+use crate::{
+    Component, Guide, Interface, Package, Product, Standard, Terminal, document, header, licences,
+    sbom, terminals,
+};
 use std::io::{Cursor, Write as _};
 use zip::result::ZipResult;
 use zip::write::{SimpleFileOptions, ZipWriter};
@@ -11,7 +14,7 @@ const PICTURE: &[u8] = include_bytes!("../model.png");
 /// A shared library for one platform.
 #[derive(Clone, Copy, Debug)]
 pub struct Binary<'a> {
-    /// Folder under `binaries/`: `linux64`, `win64`, …
+    /// Folder under `binaries/` as FMI 2.0 names it: `linux64`, `win64`, …
     pub platform: &'a str,
     /// File extension with its dot: `.so`, `.dll`, `.dylib`.
     pub extension: &'a str,
@@ -22,6 +25,8 @@ pub struct Binary<'a> {
 /// All that an archive is made from.
 #[derive(Clone, Copy, Debug)]
 pub struct Contents<'a> {
+    /// What it is for.
+    pub standard: Standard,
     /// The interface.
     pub interface: &'a Interface,
     /// Whose model it is.
@@ -32,16 +37,19 @@ pub struct Contents<'a> {
     pub linked: &'a [Component],
     /// What the interface document says besides the rows.
     pub guide: Guide<'a>,
-    /// `model.png`, which importers show on the block.
+    /// The PNG that importers show on the block: `model.png`, in FMI 3.0 `terminalsAndIcons/icon.png`.
     pub icon: &'a [u8],
     /// Other files, by their path in the archive.
     pub extra: &'a [(String, Vec<u8>)],
+    /// What is connected by one line, in FMI 3.0.
+    pub terminals: &'a [Terminal],
 }
 
 impl<'a> Contents<'a> {
     /// What follows from the interface alone: of no package, no library, nothing linked in, the icon of a control loop.
     pub fn of(interface: &'a Interface) -> Self {
         Self {
+            standard: Standard::Fmi2,
             interface,
             package: Package::default(),
             binaries: &[],
@@ -49,6 +57,7 @@ impl<'a> Contents<'a> {
             guide: Guide::default(),
             icon: PICTURE,
             extra: &[],
+            terminals: &[],
         }
     }
 }
@@ -78,6 +87,7 @@ pub fn write(contents: &Contents<'_>) -> ZipResult<Vec<u8>> {
 /// Paths in ascending order, with contents; a folder's path ends in `/`.
 pub fn files(contents: &Contents<'_>) -> Vec<(String, Vec<u8>)> {
     let Contents {
+        standard,
         interface,
         package,
         binaries,
@@ -85,30 +95,40 @@ pub fn files(contents: &Contents<'_>) -> Vec<(String, Vec<u8>)> {
         guide,
         icon,
         extra,
+        terminals,
     } = *contents;
     let name = interface.name;
     let product = Product::of(interface, package);
     let mut files = vec![
         (
             "modelDescription.xml".to_owned(),
-            xml(interface, package).into_bytes(),
+            standard.description(interface, package).into_bytes(),
         ),
-        ("model.png".to_owned(), icon.to_vec()),
         (
             "documentation/index.html".to_owned(),
-            document(interface, package, guide).into_bytes(),
+            document(interface, package, guide, standard).into_bytes(),
         ),
         (
             format!("documentation/{name}.h"),
-            header(interface).into_bytes(),
+            header(interface, standard).into_bytes(),
         ),
         (
             "documentation/sbom.cdx.json".to_owned(),
             sbom(&product, linked).into_bytes(),
         ),
-        // Importers pass its location to fmi2Instantiate, so it exists, although nothing is in it.
+        // Importers pass its location to fmi2Instantiate and fmi3Instantiate…, so it exists, although nothing is in it.
         ("resources/".to_owned(), Vec::new()),
     ];
+    if standard.is_fmi3() {
+        let icons = terminals::files(terminals, icon);
+        files.extend(
+            icons
+                .into_iter()
+                .map(|(path, bytes)| (format!("terminalsAndIcons/{path}"), bytes)),
+        );
+    } else {
+        files.push(("model.png".to_owned(), icon.to_vec()));
+    }
     let licences = licences::files(&product, linked);
     files.extend(
         licences
@@ -121,6 +141,7 @@ pub fn files(contents: &Contents<'_>) -> Vec<(String, Vec<u8>)> {
         bytes,
     } in binaries
     {
+        let platform = standard.platform(platform);
         files.push((
             format!("binaries/{platform}/{name}{extension}"),
             bytes.to_vec(),

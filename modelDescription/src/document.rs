@@ -1,30 +1,14 @@
 //! The interface document `documentation/index.html`: one page that needs nothing but itself.
 
+use crate::arrays::{CLOCK, CLOCK_REFERENCE};
 use crate::guide::{self, Guide};
 use crate::html::{Section, escape, table};
 use crate::interface::Interface;
+use crate::standard::Standard;
 use crate::xml::{LOG_CATEGORIES, double};
-use crate::{Package, licences, quick_start, variables};
+use crate::{Package, deviations, licences, quick_start, variables};
 use fmu_declaration::Stepping;
 use std::fmt::Write as _;
-
-/// Where the C interface deviates from FMI 2.0.5: more lenient than its table of legal calls (section 4.2.4), because
-/// importers make these calls, or with an answer that the standard leaves open.
-const DEVIATIONS: [&str; 7] = [
-    "Variables can be read right after instantiation: they show the start values.",
-    "Inputs can be set before Initialization Mode.",
-    "<code>fmi2EnterInitializationMode</code> is accepted without <code>fmi2SetupExperiment</code>: the start time is then 0, \
-     without a stop time.",
-    "A refused call (wrong argument, order, value or state bytes) returns <code>fmi2Error</code>, changes nothing and does not end \
-     the run. Only a failed step or a caught panic does: then <code>fmi2Reset</code>, <code>fmi2SetFMUstate</code> or \
-     <code>fmi2FreeInstance</code> must follow.",
-    "<code>fmi2Warning</code>, <code>fmi2Discard</code>, <code>fmi2Pending</code> and <code>fmi2Fatal</code> are never returned. \
-     What is unsupported (input derivatives, output derivatives, directional derivatives, asynchronous steps) returns \
-     <code>fmi2Error</code>.",
-    "<code>fmi2GetRealStatus(fmi2LastSuccessfulTime)</code> and <code>fmi2GetBooleanStatus(fmi2Terminated)</code> are answered at any \
-     time after initialization.",
-    "A step may go past the stop time: importers end a run by a rounding past it.",
-];
 
 const STYLE: &str = include_str!("document.css");
 
@@ -32,14 +16,20 @@ const STYLE: &str = include_str!("document.css");
 ///
 /// # Panics
 /// Never: text is written to memory.
-pub fn write(interface: &Interface, package: Package<'_>, guide: Guide<'_>) -> String {
+pub fn write(
+    interface: &Interface,
+    package: Package<'_>,
+    guide: Guide<'_>,
+    standard: Standard,
+) -> String {
     let name = escape(interface.name);
-    let sections = sections(interface, package, guide);
+    let sections = sections(interface, package, guide, standard);
     let mut page = format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">\n<title>{name}</title>\n<style>\n{STYLE}</style>\n\
-         </head>\n<body>\n<h1>{name}</h1>\n<p>{}</p>\n",
-        escape(interface.about)
+         </head>\n<body>\n<h1>{name}</h1>\n<p>{} <small>{}</small></p>\n",
+        escape(interface.about),
+        standard.title()
     );
     page.push_str("<nav aria-label=\"Contents\">\n<ul>\n");
     for Section {
@@ -68,26 +58,23 @@ pub fn write(interface: &Interface, package: Package<'_>, guide: Guide<'_>) -> S
 }
 
 /// What the document has, in this order.
-fn sections(interface: &Interface, package: Package<'_>, guide: Guide<'_>) -> Vec<Section> {
+fn sections(
+    interface: &Interface,
+    package: Package<'_>,
+    guide: Guide<'_>,
+    standard: Standard,
+) -> Vec<Section> {
     let mut sections = Vec::new();
     sections.extend(guide::what(guide));
     sections.extend(guide::picture(guide));
-    sections.push(quick_start::section(interface, guide.system));
-    sections.extend(guide::wiring(interface.name, guide));
-    sections.push(stepping(interface));
-    sections.extend(variables::sections(interface));
+    sections.push(quick_start::section(interface, guide.system, standard));
+    sections.extend(guide::wiring(interface.name, guide, standard));
+    sections.push(stepping(interface, standard));
+    sections.extend(variables::sections(interface, standard));
     sections.extend(enumerations(interface));
-    sections.push(facts(interface, package));
+    sections.push(facts(interface, package, standard));
     sections.push(log());
-    let deviations: String = DEVIATIONS
-        .iter()
-        .map(|deviation| format!("<li>{deviation}</li>\n"))
-        .collect();
-    sections.push(Section::new(
-        "deviations",
-        "Deviations from FMI 2.0.5",
-        format!("<ul>\n{deviations}</ul>\n"),
-    ));
+    sections.push(deviations::section(standard));
     let licence = licence(package);
     sections.push(Section::new("licence", "Licence", licence));
     sections
@@ -115,15 +102,18 @@ fn licence(package: Package<'_>) -> String {
     )
 }
 
-fn facts(interface: &Interface, package: Package<'_>) -> Section {
+fn facts(interface: &Interface, package: Package<'_>, standard: Standard) -> Section {
     let mut page = String::new();
     let experiment = interface.experiment;
     let seconds = |time: f64| format!("{} s", double(time));
     table(&mut page, "facts", &["", ""]);
     for (what, value) in [
-        ("Standard", "FMI 2.0, co-simulation".to_owned()),
+        ("Standard", standard.title().to_owned()),
         ("Version", escape(package.version)),
-        ("guid", format!("<code>{}</code>", escape(&interface.guid))),
+        (
+            standard.token(),
+            format!("<code>{}</code>", escape(&interface.guid)),
+        ),
         (
             "Default experiment",
             format!(
@@ -149,10 +139,14 @@ fn facts(interface: &Interface, package: Package<'_>) -> Section {
         let _ = writeln!(page, "<tr><td>{what}</td><td>{value}</td></tr>");
     }
     page.push_str("</table>\n");
-    Section::new("facts", "Standard, version, guid", page)
+    let title = format!("Standard, version, {}", standard.token());
+    Section::new("facts", &title, page)
 }
 
-fn stepping(interface: &Interface) -> Section {
+fn stepping(interface: &Interface, standard: Standard) -> Section {
+    if standard == Standard::Fmi3Scheduled {
+        return scheduled(interface);
+    }
     let how = match interface.stepping {
         Stepping::Sampled => {
             "The model is sampled: ticks are counted from the start time, one sample period apart. A step from t to t + h runs the \
@@ -167,9 +161,22 @@ fn stepping(interface: &Interface) -> Section {
         }
     };
     let body = format!(
-        "<p>{how}</p>\n<p>No output depends on an input at the same communication point. Quantities are in SI \
-         units. Bounds are included; a value outside of them, NaN or infinite is refused when it is set, but for inputs whose \
-         description says that they may be NaN.</p>\n"
+        "<p>{how}</p>\n<p>No output depends on an input at the same communication point. {QUANTITIES}</p>\n"
+    );
+    Section::new("stepping", "How it steps", body)
+}
+
+const QUANTITIES: &str = "Quantities are in SI units. Bounds are included; a value outside of them, NaN or infinite is refused when \
+    it is set, but for inputs whose description says that they may be NaN.";
+
+/// The importer's scheduler calls the ticks.
+fn scheduled(interface: &Interface) -> Section {
+    let body = format!(
+        "<p>The model has one partition, that of the periodic clock <code>{CLOCK}</code> (value reference {CLOCK_REFERENCE}, period {} s, \
+         first at the start time). <code>fmi3ActivateModelPartition</code> runs one tick: set the inputs before it, read the outputs \
+         after it. The outputs are those that the co-simulation FMU shows at the end of the step that begins at the activation \
+         time, bit for bit.</p>\n<p>Outputs depend on inputs at the same activation. {QUANTITIES}</p>\n",
+        double(interface.experiment.step)
     );
     Section::new("stepping", "How it steps", body)
 }

@@ -2,6 +2,7 @@
 //! which variables of which FMUs belong together. No model is known here, so it is given.
 
 use crate::html::{Section, escape, table};
+use crate::standard::Standard;
 use std::fmt::Write as _;
 
 /// What the document shows besides the rows.
@@ -58,13 +59,16 @@ pub(crate) fn picture(guide: Guide<'_>) -> Option<Section> {
 }
 
 /// The table of connections, if there are some.
-pub(crate) fn wiring(name: &str, guide: Guide<'_>) -> Option<Section> {
+pub(crate) fn wiring(name: &str, guide: Guide<'_>, standard: Standard) -> Option<Section> {
     if guide.wiring.is_empty() {
         return None;
     }
-    let mut body = String::from(
-        "<p>All elements of a vector <code>[i]</code> are connected. An input that is left open keeps its start value.</p>\n",
-    );
+    let how = if standard.is_fmi3() {
+        "Arrays are connected whole, but where one element is named, from 1."
+    } else {
+        "All elements of a vector <code>[i]</code> are connected."
+    };
+    let mut body = format!("<p>{how} An input that is left open keeps its start value.</p>\n");
     table(&mut body, "wiring", &["Here", "", "There", "When"]);
     for connection in guide.wiring {
         let (here, arrow, there) = if connection.to.0 == name {
@@ -80,9 +84,9 @@ pub(crate) fn wiring(name: &str, guide: Guide<'_>) -> Option<Section> {
         let _ = writeln!(
             body,
             "<tr><td>{}</td><td>{arrow}</td><td>{}.{}</td><td>{}</td></tr>",
-            escape(here),
+            escape(&standard.name(here)),
             escape(there.0),
-            escape(there.1),
+            escape(&standard.name(there.1)),
             escape(when)
         );
     }

@@ -3,7 +3,7 @@
 
 use crate::entry::{Entry, Kind};
 use crate::error::Error;
-use crate::rules::{check_frame, check_row, check_scalars, known};
+use crate::rules::{check_arrays, check_frame, check_row, check_scalars, known};
 use fmu_declaration::{
     Access, Causality, Declare, Declared, Description, Enumeration, Experiment, Provenance, Scalar,
     Stepping, Unit, Variability, provenance,
@@ -63,6 +63,7 @@ impl Interface {
         }
         scalars.extend(provenance::ALL.map(built_from));
         check_scalars(&scalars)?;
+        check_arrays(description.stepping, &scalars)?;
         Ok(Self {
             name: description.name,
             about: description.about,

@@ -45,6 +45,9 @@
 //! | [`hand_over`] | the interface as bytes, from a library to who packs it | | |
 //! | [`name`] | names of the structured naming convention | | 2.2.9 |
 //! | [`schema`], [`mod@xml`] | the XML's elements, and their contents | `modelDescription.xml` | 2.2, 4.3.1 |
+//! | [`standard`] | FMI 2.0 or 3.0, co-simulation or scheduled execution | | |
+//! | [`arrays`], [`schema3`], [`xml3`] | the same for FMI 3.0, where a row is one variable | `modelDescription.xml` | 3.0: 2.4 |
+//! | [`terminals`] | what is connected by one line, and the icons | `terminalsAndIcons/` | 3.0: 2.4.9 |
 //! | [`mod@document`] | the interface document for humans | `documentation/index.html` | 2.3 |
 //! | `html` | its pieces | | |
 //! | [`guide`] | what the rows cannot tell: what it does, picture, wiring | in the document | |
@@ -60,7 +63,11 @@
 
 #[cfg(feature = "write")]
 pub mod archive;
+#[cfg(feature = "write")]
+pub mod arrays;
 pub mod component;
+#[cfg(feature = "write")]
+mod deviations;
 #[cfg(feature = "write")]
 pub mod document;
 pub mod entry;
@@ -88,9 +95,17 @@ pub mod sbom;
 #[cfg(feature = "write")]
 pub mod schema;
 #[cfg(feature = "write")]
+pub mod schema3;
+#[cfg(feature = "write")]
+pub mod standard;
+#[cfg(feature = "write")]
+pub mod terminals;
+#[cfg(feature = "write")]
 mod variables;
 #[cfg(feature = "write")]
 pub mod xml;
+#[cfg(feature = "write")]
+pub mod xml3;
 
 pub use component::Component;
 #[cfg(feature = "write")]
@@ -107,6 +122,10 @@ pub use package::Package;
 pub use product::Product;
 #[cfg(feature = "write")]
 pub use sbom::write as sbom;
+#[cfg(feature = "write")]
+pub use standard::Standard;
+#[cfg(feature = "write")]
+pub use terminals::{Matching, Member, Terminal};
 #[cfg(feature = "write")]
 pub use xml::write as xml;
 

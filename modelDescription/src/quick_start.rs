@@ -3,11 +3,17 @@
 use crate::Interface;
 use crate::guide::System;
 use crate::html::{Section, escape};
+use crate::standard::Standard;
 use crate::xml::double;
 use std::fmt::Write as _;
 
 /// The section.
-pub(crate) fn section(interface: &Interface, system: System<'_>) -> Section {
+pub(crate) fn section(interface: &Interface, system: System<'_>, standard: Standard) -> Section {
+    match standard {
+        Standard::Fmi2 => {}
+        Standard::Fmi3 => return fmi3(interface),
+        Standard::Fmi3Scheduled => return scheduled(interface),
+    }
     let (name, step) = (interface.name, double(interface.experiment.step));
     let mut page = String::new();
     listing(
@@ -34,6 +40,52 @@ pub(crate) fn section(interface: &Interface, system: System<'_>) -> Section {
         "<p><b>Simulink</b>: add an FMU block (Simulink Extras, FMU Import), choose <code>{name}.fmu</code>, simulation mode \
          co-simulation, communication step size {step} s. Parameters are in the block's dialog, by group of their names; the elements of a \
          vector are separate ports. <b>Dymola, VEOS and others</b>: import as a co-simulation FMU with the same step size.</p>"
+    );
+    Section::new("quick-start", "Quick start", page)
+}
+
+/// An array is one column with several components in what fmpy returns.
+fn fmi3(interface: &Interface) -> Section {
+    let (name, step) = (interface.name, double(interface.experiment.step));
+    let mut page = String::new();
+    listing(
+        &mut page,
+        "<b>fmpy</b> (Python), one second alone, all outputs; an array has a column of its own shape:",
+        "python",
+        &format!(
+            "from fmpy import simulate_fmu\n\n\
+             result = simulate_fmu(\"{name}.fmu\", stop_time=1.0, output_interval={step})\n\
+             print(result.dtype.names)\n\
+             print(result[-1])"
+        ),
+    );
+    let _ = writeln!(
+        page,
+        "<p><b>Other tools</b>: import as an FMI 3.0 co-simulation FMU with communication step size {step} s. Arrays are connected \
+         whole; terminals (<code>terminalsAndIcons/terminalsAndIcons.xml</code>) say which variables go together. A tool that \
+         knows no arrays takes the FMI 2.0 archive, where each element is a variable.</p>"
+    );
+    Section::new("quick-start", "Quick start", page)
+}
+
+/// The order of calls: few tools have a scheduler.
+fn scheduled(interface: &Interface) -> Section {
+    let mut page = String::new();
+    let of_model = crate::header::macro_name(interface.name);
+    listing(
+        &mut page,
+        "One tick, in C, of an instance made by <code>fmi3InstantiateScheduledExecution</code> and initialized:",
+        "c",
+        &format!(
+            "/* set the inputs: fmi3SetFloat64, fmi3SetBoolean, … */\n\
+             fmi3ActivateModelPartition(instance, {of_model}_CLOCK, start_time + k * {});\n\
+             /* read the outputs: fmi3GetFloat64, … */",
+            double(interface.experiment.step)
+        ),
+    );
+    let _ = writeln!(
+        page,
+        "<p>A tool without a scheduler takes the co-simulation archive.</p>"
     );
     Section::new("quick-start", "Quick start", page)
 }

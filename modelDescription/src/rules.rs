@@ -1,5 +1,6 @@
 //! Every rule of the standard that a declaration can break.
 
+use crate::arrays::{self, CLOCK, TIME};
 use crate::entry::{Entry, Kind};
 use crate::error::Error;
 use crate::name::{is_identifier, is_structured};
@@ -206,6 +207,33 @@ pub(crate) fn check_scalars(scalars: &[Entry]) -> Result<(), Error> {
         }),
         None => Ok(()),
     }
+}
+
+/// The names of FMI 3.0, where a vector is one variable, and there is a variable for time and one for the clock.
+pub(crate) fn check_arrays(stepping: Stepping, scalars: &[Entry]) -> Result<(), Error> {
+    let of_fmi3 = |name: &str| format!("{name} of FMI 3.0");
+    let mut names = BTreeMap::from([(TIME.to_owned(), of_fmi3(TIME))]);
+    if stepping == Stepping::Sampled {
+        names.insert(CLOCK.to_owned(), of_fmi3(CLOCK));
+    }
+    let enumerations: Vec<_> = scalars
+        .iter()
+        .filter_map(|entry| match &entry.kind {
+            Kind::Enumeration { of, .. } => Some(of.name),
+            _ => None,
+        })
+        .collect();
+    for elements in scalars.chunk_by(|one, next| one.row == next.row) {
+        let row = elements[0].row.clone();
+        let name = arrays::name(&row);
+        if enumerations.contains(&name.as_str()) {
+            return Err(Error::TypeAndVariable { row });
+        }
+        if let Some(other) = names.insert(name.to_lowercase(), row.clone()) {
+            return Err(Error::SameName { row, other });
+        }
+    }
+    Ok(())
 }
 
 fn unique(names: impl Iterator<Item = String>) -> bool {

@@ -1,4 +1,5 @@
-//! The elements of `modelDescription.xml` that we write, in the order of the FMI 2.0 XSD. Attributes start with `@`.
+//! The elements of `modelDescription.xml` that we write, in the order of the FMI 2.0 XSD. Attributes start with `@`. What FMI 3.0
+//! has otherwise is in [`schema3`](crate::schema3).
 
 use serde::Serialize;
 
@@ -12,6 +13,7 @@ macro_rules! element {
         pub struct $element { $($(#[$field_meta])* #[allow(missing_docs, reason = "named as in the XSD")] pub $field: $type),* }
     };
 }
+pub(crate) use element;
 
 element! {
     /// The root.

@@ -4,12 +4,13 @@
 use crate::entry::{Entry, Kind};
 use crate::html::{Section, escape, table};
 use crate::interface::Interface;
+use crate::standard::Standard;
 use crate::xml::{double, variability};
 use fmu_declaration::Causality;
 use std::fmt::Write as _;
 
 /// The sections that have variables.
-pub(crate) fn sections(interface: &Interface) -> impl Iterator<Item = Section> {
+pub(crate) fn sections(interface: &Interface, standard: Standard) -> impl Iterator<Item = Section> {
     let titled = [
         ("inputs", "Inputs", Causality::Input),
         ("outputs", "Outputs", Causality::Output),
@@ -23,11 +24,14 @@ pub(crate) fn sections(interface: &Interface) -> impl Iterator<Item = Section> {
     ];
     titled
         .into_iter()
-        .filter_map(|(id, title, causality)| section(interface, id, title, causality))
+        .filter_map(move |(id, title, causality)| {
+            section(interface, standard, id, title, causality)
+        })
 }
 
 fn section(
     interface: &Interface,
+    standard: Standard,
     id: &'static str,
     title: &str,
     causality: Causality,
@@ -66,7 +70,7 @@ fn section(
             );
             group = of;
         }
-        row(&mut body, elements, start);
+        row(&mut body, standard, elements, start);
     }
     body.push_str("</table>\n");
     Some(Section {
@@ -78,10 +82,15 @@ fn section(
 }
 
 /// A scalar, or a vector by all of its elements.
-fn row(body: &mut String, elements: &[&Entry], start: bool) {
+fn row(body: &mut String, standard: Standard, elements: &[&Entry], start: bool) {
     let (first, last) = (elements[0], elements[elements.len() - 1]);
-    let (kind, range) = describe(&first.kind);
-    let (vector, references) = if elements.len() > 1 {
+    let (kind, range) = describe(standard, &first.kind);
+    let (vector, references) = if standard.is_fmi3() && first.row.contains("[i]") {
+        (
+            format!("<small>array of {}</small>", elements.len()),
+            format!(" {}", first.reference),
+        )
+    } else if elements.len() > 1 {
         (
             format!("<small>i = 1 … {}</small>", elements.len()),
             format!("s {} … {}", first.reference, last.reference),
@@ -92,7 +101,7 @@ fn row(body: &mut String, elements: &[&Entry], start: bool) {
     let _ = write!(
         body,
         "<tr><td><code>{}</code>{vector}</td><td data-of=\"Type\">{kind}</td>",
-        escape(&first.row)
+        escape(&standard.name(&first.row))
     );
     if start {
         let mut starts: Vec<_> = elements
@@ -122,21 +131,21 @@ fn row(body: &mut String, elements: &[&Entry], start: bool) {
 }
 
 /// Type with unit, and range, for humans.
-fn describe(kind: &Kind) -> (String, String) {
+fn describe(standard: Standard, kind: &Kind) -> (String, String) {
+    let of_type = standard.type_name(kind);
     match kind {
         Kind::Real { unit, min, max, .. } => (
-            format!("Real, {}", escape(unit.name)),
+            format!("{of_type}, {}", escape(unit.name)),
             range(min.map(double), max.map(double)),
         ),
         Kind::Integer { min, max, .. } => (
-            "Integer".into(),
+            of_type.into(),
             range(
                 min.map(|value| value.to_string()),
                 max.map(|value| value.to_string()),
             ),
         ),
-        Kind::Boolean { .. } => ("Boolean".into(), String::new()),
-        Kind::String { .. } => ("String".into(), String::new()),
+        Kind::Boolean { .. } | Kind::String { .. } => (of_type.into(), String::new()),
         Kind::Enumeration { of, .. } => (
             format!("<a href=\"#{0}\">{0}</a>", escape(of.name)),
             String::new(),

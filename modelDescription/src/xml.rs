@@ -15,7 +15,7 @@ use crate::schema::{
     SimpleType, TypeDefinitions, Unit, UnitDefinitions, Unknown, Unknowns,
 };
 use fmu_declaration::{Causality, Declared, Variability};
-use serde::Serialize as _;
+use serde::Serialize;
 
 /// Log categories and their descriptions: those of the `export` crate, and the one that stands for all.
 pub const LOG_CATEGORIES: [(&str, &str); 4] = [
@@ -33,11 +33,15 @@ pub const LOG_CATEGORIES: [(&str, &str); 4] = [
 /// # Panics
 /// When quick-xml cannot write our own elements: a programming error that the first test shows.
 pub fn write(interface: &Interface, package: Package<'_>) -> String {
+    text(&root(interface, package))
+}
+
+/// A document with this root.
+pub(crate) fn text(root: &impl Serialize) -> String {
     let mut text = String::from("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
     let mut serializer = quick_xml::se::Serializer::new(&mut text);
     serializer.indent(' ', 2);
-    root(interface, package)
-        .serialize(serializer)
+    root.serialize(serializer)
         .expect("the elements are serializable");
     text.push('\n');
     text
@@ -63,22 +67,10 @@ fn root(interface: &Interface, package: Package<'_>) -> Root {
             can_serialize_state: true,
             ..CoSimulation::default()
         },
-        units: units(interface),
+        units: units(interface.units()),
         types: types(interface),
-        log: LogCategories {
-            list: LOG_CATEGORIES
-                .map(|(name, about)| Category {
-                    name: name.into(),
-                    description: about.into(),
-                })
-                .into(),
-        },
-        experiment: DefaultExperiment {
-            start_time: double(interface.experiment.start),
-            stop_time: double(interface.experiment.stop),
-            tolerance: double(interface.experiment.tolerance),
-            step_size: double(interface.experiment.step),
-        },
+        log: log(),
+        experiment: experiment(interface),
         variables: ModelVariables {
             list: interface.scalars.iter().map(variable).collect(),
         },
@@ -87,11 +79,31 @@ fn root(interface: &Interface, package: Package<'_>) -> Root {
 }
 
 /// An attribute that is left out where there is nothing to say.
-fn told(text: &str) -> Option<String> {
+pub(crate) fn told(text: &str) -> Option<String> {
     (!text.is_empty()).then(|| text.to_owned())
 }
 
-fn units(interface: &Interface) -> Option<UnitDefinitions> {
+pub(crate) fn log() -> LogCategories {
+    LogCategories {
+        list: LOG_CATEGORIES
+            .map(|(name, about)| Category {
+                name: name.into(),
+                description: about.into(),
+            })
+            .into(),
+    }
+}
+
+pub(crate) fn experiment(interface: &Interface) -> DefaultExperiment {
+    DefaultExperiment {
+        start_time: double(interface.experiment.start),
+        stop_time: double(interface.experiment.stop),
+        tolerance: double(interface.experiment.tolerance),
+        step_size: double(interface.experiment.step),
+    }
+}
+
+pub(crate) fn units(used: Vec<fmu_declaration::Unit>) -> Option<UnitDefinitions> {
     let exponent = |value: i8| (value != 0).then_some(value);
     let unit = |unit: fmu_declaration::Unit| Unit {
         name: unit.name.into(),
@@ -111,7 +123,7 @@ fn units(interface: &Interface) -> Option<UnitDefinitions> {
             offset: (d.offset != 0.0).then(|| double(d.offset)),
         }),
     };
-    let list: Vec<_> = interface.units().into_iter().map(unit).collect();
+    let list: Vec<_> = used.into_iter().map(unit).collect();
     (!list.is_empty()).then_some(UnitDefinitions { list })
 }
 
@@ -253,7 +265,7 @@ fn structure(interface: &Interface) -> ModelStructure {
     }
 }
 
-fn spaced(words: impl Iterator<Item = String>) -> String {
+pub(crate) fn spaced(words: impl Iterator<Item = String>) -> String {
     words.collect::<Vec<_>>().join(" ")
 }
 

@@ -3,7 +3,7 @@
 mod subject;
 
 use fmu_archive::archive::{self, Contents};
-use fmu_archive::{Component, Connection, Guide, Interface, System, document, header};
+use fmu_archive::{Component, Connection, Guide, Interface, Standard, System, document, header};
 use std::collections::{BTreeMap, BTreeSet};
 use std::io::{Cursor, Read as _};
 use subject::{PACKAGE, Subject};
@@ -60,7 +60,7 @@ fn linked() -> Vec<Component> {
 }
 
 fn page() -> String {
-    document(&interface(), PACKAGE, GUIDE)
+    document(&interface(), PACKAGE, GUIDE, Standard::Fmi2)
 }
 
 fn written() -> Vec<u8> {
@@ -256,7 +256,7 @@ fn picture_and_wiring_are_in_the_document() {
     ] {
         assert!(page.contains(row), "{row}");
     }
-    let bare = document(&interface(), PACKAGE, Guide::default());
+    let bare = document(&interface(), PACKAGE, Guide::default(), Standard::Fmi2);
     for part in ["<figure", "How to wire", "What it does", "OMSimulator"] {
         assert!(page.contains(part) && !bare.contains(part), "{part}");
     }
@@ -364,7 +364,7 @@ fn the_tags_of_the_document_are_balanced() {
 
 #[test]
 fn the_header_defines_each_value_reference_once() {
-    let text = header(&interface());
+    let text = header(&interface(), Standard::Fmi2);
     let defined: Vec<(&str, &str)> = text
         .lines()
         .filter_map(|line| line.strip_prefix("#define "))

@@ -3,7 +3,7 @@
 mod subject;
 
 use fmu_archive::hand_over::{self, Refused};
-use fmu_archive::{Guide, Interface, VERSION, document, header, xml};
+use fmu_archive::{Guide, Interface, Standard, VERSION, document, header, xml};
 use subject::{PACKAGE, Subject};
 
 fn interface() -> Interface {
@@ -16,8 +16,11 @@ fn what_is_written_from_an_interface_that_was_handed_over_is_what_is_written_fro
     let interface = interface();
     let read = hand_over::read(hand_over::bytes(Ok(&interface))).expect("our own bytes");
     assert_eq!(xml(&read, PACKAGE), xml(&interface, PACKAGE));
-    assert_eq!(header(&read), header(&interface));
-    let page = |of| document(of, PACKAGE, Guide::default());
+    assert_eq!(
+        header(&read, Standard::Fmi2),
+        header(&interface, Standard::Fmi2)
+    );
+    let page = |of| document(of, PACKAGE, Guide::default(), Standard::Fmi2);
     assert_eq!(page(&read), page(&interface));
 }
 

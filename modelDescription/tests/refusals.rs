@@ -4,8 +4,8 @@ mod subject;
 
 use fmu_archive::Interface;
 use fmu_declaration::{
-    Access, Declare as _, Description, Enumeration, Experiment, Unit, Variability, Variable,
-    choices, unit,
+    Access, Declare as _, Description, Enumeration, Experiment, Stepping, Unit, Variability,
+    Variable, choices, unit,
 };
 use subject::{Subject, with_row, within};
 
@@ -101,6 +101,26 @@ fn names_are_unique_under_case_folding_and_structured() {
     refused(
         &with_row(MODE, |_| Subject::in_mode(&INNER_TYPE)),
         &["inner", "type"],
+    );
+}
+
+#[test]
+fn names_are_unique_in_fmi_3_too_where_a_vector_is_one_variable() {
+    refused(&named(TINY, "angle"), &["angle[i]", "angle"]);
+    refused(&named(TINY, "Time"), &["Time", "time of FMI 3.0"]);
+    refused(&named(TINY, "clock"), &["clock", "clock of FMI 3.0"]);
+    // Only a sampled model has a clock.
+    let exact = Description {
+        stepping: Stepping::Exact,
+        ..named(TINY, "clock")
+    };
+    assert!(Interface::read(&exact).is_ok());
+    choices! { ANGLE_TYPE "angle" "":
+        4 "only" "";
+    }
+    refused(
+        &with_row(MODE, |_| Subject::in_mode(&ANGLE_TYPE)),
+        &["angle[i]", "type"],
     );
 }
 

@@ -11,7 +11,7 @@ from exo.systems.closed import CLOSED
 from exo.systems.system import RECIPES
 
 from conftest import NAMES
-from foreign.matrix import DOCUMENTS, ROOT, STATES, filled, load
+from foreign.matrix import DOCUMENTS, NAMES_SCHEDULED, ROOT, STATES, filled, load
 from foreign.runs import RUNS
 
 MATRIX = load()
@@ -31,7 +31,8 @@ def test_the_versions_are_those_that_run() -> None:
 
 def test_every_fmu_and_every_system_has_a_row_and_every_importer_runs_every_fmu() -> None:
     systems = [f"{name}{kind}" for kind in (".fmu (container)", ".ssp", f"{CLOSED}.ssp") for name in RECIPES]
-    assert sorted(one["name"] for one in MATRIX.subject) == sorted([f"{name}.fmu" for name in NAMES] + systems)
+    fmi3 = [f"fmi3/{name}.fmu" for name in NAMES] + [f"fmi3/scheduled/{name}.fmu" for name in NAMES_SCHEDULED]
+    assert sorted(one["name"] for one in MATRIX.subject) == sorted([f"{name}.fmu" for name in NAMES] + fmi3 + systems)
     known = [one["name"] for one in MATRIX.importer]
     assert set(RUNS) < set(known)
     assert all(set(one["ran"]) <= set(known) for one in MATRIX.subject)

@@ -14,7 +14,7 @@ use fmu_archive::archive::Contents;
 use fmu_archive::{Component, Guide, Interface, Package};
 use std::path::{Path, PathBuf};
 
-/// The contents of an archive of the subject's package, and where it goes.
+/// Writes the archives of a model of the subject's package, of FMI 2.0 to `archive` and of FMI 3.0 beside it; returns where they lie.
 pub(crate) fn pack(
     subject: &Subject,
     facts: &Facts,
@@ -22,7 +22,7 @@ pub(crate) fn pack(
     binaries: Vec<Library>,
     linked: Vec<Component>,
     archive: PathBuf,
-) -> Outcome<PathBuf> {
+) -> Outcome<Vec<PathBuf>> {
     let texts: Vec<_> = facts
         .texts
         .iter()
@@ -56,9 +56,11 @@ pub(crate) fn pack(
             .map(folder)
             .collect(),
     };
-    let bytes = parts.bytes(&contents).map_err(Failure::Found)?;
-    replace(&parts.archive, &bytes)?;
-    Ok(parts.archive)
+    let written = parts.archives(&contents).map_err(Failure::Found)?;
+    for (path, bytes) in &written {
+        replace(path, bytes)?;
+    }
+    Ok(written.into_iter().map(|(path, _)| path).collect())
 }
 
 /// Builds the archives of all models of the subject for this machine, into the folder `out`; without it into `fmu` in cargo's
@@ -86,7 +88,7 @@ pub fn build(subject: &Subject, profile: &str, out: Option<&Path>) -> Outcome<Ve
             path,
         };
         let archive = out.join(interface.name).with_extension("fmu");
-        archives.push(pack(
+        archives.extend(pack(
             subject,
             &facts,
             &interface,
@@ -206,5 +208,6 @@ pub fn dist(
         )
     };
     let archives = interfaces.iter().zip(binaries).map(archive);
-    Ok((archives.collect::<Outcome<_>>()?, rows))
+    let archives: Vec<_> = archives.collect::<Outcome<_>>()?;
+    Ok((archives.concat(), rows))
 }

@@ -1,15 +1,15 @@
 //! Archives from libraries.
 
 use crate::process::{Outcome, at};
-use fmu_archive::Component;
 use fmu_archive::archive::{self, Binary, Contents};
+use fmu_archive::{Component, Standard};
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 
 /// What an archive is made from besides the interface and what the model's author has written.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Parts {
-    /// Where the archive goes.
+    /// Where the archive of FMI 2.0 goes; those of FMI 3.0 lie in folders beside it.
     pub archive: PathBuf,
     /// Its libraries.
     pub binaries: Vec<Library>,
@@ -66,6 +66,26 @@ impl Parts {
         } else {
             Err(format!("{name}: two archives differ"))
         }
+    }
+}
+
+impl Parts {
+    /// The archives of all standards that the model has, each with its place.
+    ///
+    /// # Errors
+    /// As [`bytes`](Self::bytes).
+    pub fn archives(&self, contents: &Contents<'_>) -> Result<Vec<(PathBuf, Vec<u8>)>, String> {
+        let folder = self.archive.parent().unwrap_or(Path::new(""));
+        let file = self.archive.file_name().unwrap_or_default();
+        Standard::of(contents.interface)
+            .map(|standard| {
+                let bytes = self.bytes(&Contents {
+                    standard,
+                    ..*contents
+                })?;
+                Ok((folder.join(standard.folder()).join(file), bytes))
+            })
+            .collect()
     }
 }
 

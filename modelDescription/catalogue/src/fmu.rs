@@ -1,8 +1,9 @@
 //! The list of the FMUs with their types. The descriptions written from their declarations are committed as
-//! `modelDescription/<Name>.xml`, so that an interface change is a diff that someone reads.
+//! `modelDescription/<Name>.xml`, those of FMI 3.0 in `modelDescription/fmi3/`, so that an interface change is a diff that
+//! someone reads.
 
 use crate::{PACKAGE, root};
-use fmu_archive::{Error, Interface, xml};
+use fmu_archive::{Error, Interface, Standard};
 use fmu_declaration::Declare;
 use std::io;
 use std::path::PathBuf;
@@ -61,25 +62,28 @@ impl Fmu {
         }
     }
 
-    /// The committed description.
-    pub fn committed(&self) -> PathBuf {
-        root()
-            .join("modelDescription")
-            .join(self.name)
-            .with_extension("xml")
+    /// The committed description for a version of the standard.
+    pub fn committed(&self, standard: Standard) -> PathBuf {
+        let folder = root().join("modelDescription").join(standard.folder());
+        folder.join(self.name).with_extension("xml")
     }
 
     /// Whether the committed description is the one that the declaration gives now.
-    pub fn is_committed(&self, interface: &Interface) -> bool {
-        std::fs::read_to_string(self.committed()).is_ok_and(|text| text == xml(interface, PACKAGE))
+    pub fn is_committed(&self, interface: &Interface, standard: Standard) -> bool {
+        let committed = std::fs::read_to_string(self.committed(standard));
+        committed.is_ok_and(|text| text == standard.description(interface, PACKAGE))
     }
 
     /// Writes the description into the place where it is committed.
     ///
     /// # Errors
     /// When the file cannot be written.
-    pub fn bless(&self, interface: &Interface) -> io::Result<()> {
-        std::fs::write(self.committed(), xml(interface, PACKAGE))
+    pub fn bless(&self, interface: &Interface, standard: Standard) -> io::Result<()> {
+        let path = self.committed(standard);
+        if let Some(folder) = path.parent() {
+            std::fs::create_dir_all(folder)?;
+        }
+        std::fs::write(path, standard.description(interface, PACKAGE))
     }
 }
 
@@ -94,11 +98,13 @@ mod tests {
             let interface = fmu
                 .interface()
                 .unwrap_or_else(|error| panic!("{}: {error}", fmu.name));
-            assert!(
-                fmu.is_committed(&interface),
-                "modelDescription/{}.xml is not what the declaration gives: run `cargo xtask fmu --bless` and read the diff",
-                fmu.name
-            );
+            for standard in Standard::of(&interface) {
+                assert!(
+                    fmu.is_committed(&interface, standard),
+                    "{} is not what the declaration gives: run `cargo xtask fmu --bless` and read the diff",
+                    fmu.committed(standard).display()
+                );
+            }
         }
     }
 
@@ -116,7 +122,7 @@ mod tests {
             .map(|(name, about)| (name.to_str().expect("ASCII"), about))
             .into();
         exported.push((ALL.to_str().expect("ASCII"), "all categories"));
-        assert_eq!(xml::LOG_CATEGORIES, *exported);
+        assert_eq!(fmu_archive::xml::LOG_CATEGORIES, *exported);
     }
 
     #[test]

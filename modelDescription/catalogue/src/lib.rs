@@ -14,6 +14,7 @@
 //! |---|---|
 //! | [`fmu`] | the list with types, and the committed descriptions |
 //! | [`wiring`] | which output belongs to which input |
+//! | [`terminals`] | the same by terminals, for FMI 3.0 |
 //! | [`table`] | what the C host must know of an FMU |
 //! | [`header`] | the C header of the law's library |
 //! | [`laws`] | the README's table of the laws |
@@ -30,6 +31,7 @@ pub mod package;
 mod pictures;
 pub mod request;
 pub mod table;
+pub mod terminals;
 pub mod wiring;
 
 pub use fmu::{FMUS, Fmu};

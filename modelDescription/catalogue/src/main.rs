@@ -13,6 +13,7 @@
 use cargo_fmu::pack::replace;
 use catalogue::request::{LawDocuments, Request};
 use catalogue::{FMUS, Fmu, header, laws, table};
+use fmu_archive::Standard;
 use std::path::Path;
 use std::process::ExitCode;
 
@@ -52,14 +53,16 @@ fn descriptions(bless: bool) -> Result<(), String> {
         let interface = fmu
             .interface()
             .map_err(|error| format!("declaration of {}: {error}", fmu.name))?;
-        if bless {
-            let path = fmu.committed();
-            fmu.bless(&interface).map_err(at(&path))?;
-        } else if !fmu.is_committed(&interface) {
-            println!(
-                "note: modelDescription/{}.xml is out of date: `cargo xtask fmu --bless`, then read the diff",
-                fmu.name
-            );
+        for standard in Standard::of(&interface) {
+            let path = fmu.committed(standard);
+            if bless {
+                fmu.bless(&interface, standard).map_err(at(&path))?;
+            } else if !fmu.is_committed(&interface, standard) {
+                println!(
+                    "note: {} is out of date: `cargo xtask fmu --bless`, then read the diff",
+                    path.display()
+                );
+            }
         }
     }
     Ok(())
@@ -75,8 +78,9 @@ fn archives(requests: &Path) -> Result<(), String> {
         let fmu = listed
             .or((request.name == example.name).then_some(&example))
             .ok_or_else(|| format!("no FMU is named {}", request.name))?;
-        let bytes = request.archive(fmu)?;
-        replace(&request.parts.archive, &bytes).map_err(said)?;
+        for (path, bytes) in request.archives(fmu)? {
+            replace(&path, &bytes).map_err(said)?;
+        }
     }
     Ok(())
 }

@@ -1,6 +1,6 @@
 //! Archives from libraries, as `cargo xtask` asks for them in a file of JSON.
 
-use crate::{Fmu, PACKAGE, wiring};
+use crate::{Fmu, PACKAGE, terminals, wiring};
 use cargo_fmu::pack::{Parts, carried};
 use fmu_archive::archive::Contents;
 use fmu_archive::{Component, Guide, Product, licences, sbom};
@@ -12,21 +12,21 @@ use std::path::PathBuf;
 pub struct Request {
     /// The FMU.
     pub name: String,
-    /// Where it goes, libraries, what is linked in.
+    /// Where the archive of FMI 2.0 goes, libraries, what is linked in.
     pub parts: Parts,
 }
 
 impl Request {
-    /// The bytes of the archive.
+    /// The archive of FMI 2.0 and, in the folder `fmi3` beside it, those of FMI 3.0: their places and bytes.
     ///
     /// # Errors
     /// When the declaration breaks a rule, a library cannot be read, a file tells of this machine, or a second archive of the
     /// same files has other bytes.
-    pub fn archive(&self, fmu: &Fmu) -> Result<Vec<u8>, String> {
+    pub fn archives(&self, fmu: &Fmu) -> Result<Vec<(PathBuf, Vec<u8>)>, String> {
         let interface = fmu
             .interface()
             .map_err(|error| format!("declaration of {}: {error}", fmu.name))?;
-        self.parts.bytes(&Contents {
+        self.parts.archives(&Contents {
             package: PACKAGE,
             guide: Guide {
                 what: fmu.what,
@@ -35,6 +35,7 @@ impl Request {
                 system: wiring::system(fmu.name),
             },
             icon: fmu.icon,
+            terminals: &terminals::of(fmu.name),
             ..Contents::of(&interface)
         })
     }
@@ -101,9 +102,9 @@ mod tests {
                 forbidden: vec!["/home/you/".to_owned()],
             },
         };
-        assert!(request.archive(&FMUS[0]).is_ok());
+        assert!(request.archives(&FMUS[0]).is_ok());
         request.parts.forbidden.push("/home/me/".to_owned());
-        let message = request.archive(&FMUS[0]).unwrap_err();
+        let message = request.archives(&FMUS[0]).unwrap_err();
         let file = format!("binaries/linux64/{}.so", FMUS[0].name);
         assert!(
             message.contains(&file) && message.contains("/home/me/"),

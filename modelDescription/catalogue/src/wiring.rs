@@ -14,8 +14,9 @@ const fn wire(
     Connection { from, to, when }
 }
 
-const SERVO: &str = "form = 2 of the controller and drive.mode = 2 of the testbed: position_servo";
-const SENSOR: &str = "where the sensor is the subject, in place of the human's force itself: what it reads comes a step later";
+pub(crate) const SERVO: &str =
+    "form = 2 of the controller and drive.mode = 2 of the testbed: position_servo";
+pub(crate) const SENSOR: &str = "where the sensor is the subject, in place of the human's force itself: what it reads comes a step later";
 const LEFT: &str = "a controller and an operator for the left arm";
 const RIGHT: &str = "a controller and an operator for the right arm";
 

@@ -12,6 +12,8 @@
 //! test, bit for bit; saves, restores and serializes the state; and looks at what a refused call does.
 //! `tests/descriptions.rs` reads the description of every FMU, and shows which valid descriptions this importer refuses.
 //!
+//! `tests/fmi3.rs` lets it call the archives of FMI 3.0.
+//!
 //! What this importer cannot do, so that it is not tested here:
 //! * it reads no units, bounds, display units and no start values of Strings and Enumerations from the description;
 //! * it sees `dependencies=""` and missing dependencies alike;

@@ -19,6 +19,8 @@ NOT_HERE = {
     "tune.png": "exo tune",
     "extra/": "in an FMU",
     "sources/": "in an FMU",
+    "terminalsAndIcons/": "in an FMU of FMI 3.0",
+    "terminalsAndIcons.xml": "in an FMU of FMI 3.0",
     "SystemStructure.ssd": "in an SSP",
     "N.m.s/rad": "a unit",
 }
@@ -27,7 +29,7 @@ OWN = ("tests/system/documents", "tests/system/test_documents.py")
 #: Folders that are made, not written.
 MADE = {".git", ".venv", "target", "results", "__pycache__"}
 #: Beginnings of paths that are none of this repository: made, or inside an archive.
-ELSEWHERE = ("http", "#", "target/", "results", "binaries/", "documentation/", "resources/", "licenses/", "include/")
+ELSEWHERE = ("http", "#", "target/", "results", "fmi3/", "binaries/", "documentation/", "resources/", "licenses/", "include/")
 #: Of files that are named without a folder; `wall.c` is a variable.
 ENDINGS = "rs|py|toml|md|json|xml|svg|png|jinja|txt|csv|h|ssv|ssd|lock|in"
 PATH = re.compile(rf"[\w.*{{}},+-]+(/[\w.*{{}},+-]*)+|[\w*{{}},+-]+\.({ENDINGS})")

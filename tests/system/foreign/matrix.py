@@ -53,11 +53,18 @@ class Matrix:
                 rows = [
                     [f"`{one['name']}`" if "(" not in one["name"] else one["name"]]
                     + ["run" if name in one["ran"] else "–" for name in importers]
-                    + [STATES[other["state"] if one["name"].endswith(".fmu") else "absent"] for other in others]
+                    + [_state(one["name"], other["state"]) for other in others]
                     for one in self.subject
                 ]
         lines = [head, ["---"] * len(head), *rows]
         return "".join(f"| {' | '.join(line)} |\n" for line in lines)
+
+
+def _state(subject: str, platform: str) -> str:
+    """What was done with a subject on a platform: the C host there calls the functions of FMI 2.0."""
+    if not subject.endswith(".fmu"):
+        return STATES["absent"]
+    return STATES["built" if subject.startswith("fmi3/") and platform == "run" else platform]
 
 
 def _files(paths: list[str]) -> str:
@@ -69,11 +76,18 @@ def names() -> tuple[str, ...]:
     return tuple(sorted(path.stem for path in (ROOT / "modelDescription").glob("*.xml")))
 
 
+#: The models with a clock: those that have a description for scheduled execution.
+NAMES_SCHEDULED = tuple(sorted(path.stem for path in (ROOT / "modelDescription" / "fmi3" / "scheduled").glob("*.xml")))
+
+
 def load() -> Matrix:
     """`matrix.toml` as it is now."""
     tables = tomllib.loads(Path(__file__).with_name("matrix.toml").read_text(encoding="utf-8"))
-    ran = tables.pop("fmus")["ran"]
-    fmus = [{"name": f"{name}.fmu", "ran": ran} for name in names()]
+    folders = {"fmus": ("", names()), "fmi3": ("fmi3/", names()), "scheduled": ("fmi3/scheduled/", NAMES_SCHEDULED)}
+    fmus = []
+    for table, (folder, of_folder) in folders.items():
+        ran = tables.pop(table)["ran"]
+        fmus += [{"name": f"{folder}{name}.fmu", "ran": ran} for name in of_folder]
     return Matrix(**{**tables, "subject": fmus + tables["subject"]})
 
 

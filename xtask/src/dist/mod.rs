@@ -305,7 +305,7 @@ fn summary(rows: &[Row], firmware: &Result<String, String>) -> Outcome {
         ),
         Err(reason) => format!("LEFT OUT {}: not built: {reason}\n", firmware::TARGET),
     };
-    println!("\n{text}\ntarget/dist/*.fmu, ssp/*, law/*");
+    println!("\n{text}\ntarget/dist/*.fmu, fmi3/*, ssp/*, law/*");
     let path = root().join("target/dist/platforms.txt");
     std::fs::write(&path, text).map_err(at(&path))
 }
