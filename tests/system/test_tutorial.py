@@ -1,8 +1,8 @@
 """docs/tutorial.md, done word by word in a folder outside of this repository, with a space and an umlaut in its path.
 
-Not done: the blocks `console`, which clone, install from a network, or fetch compilers. In their place stand this clone
-and the program that `cargo xtask test` has built of it. A configuration of cargo lies in the folder above, as a stranger
-may have one: other flags, another target, panics that abort, a target folder elsewhere.
+Not done: the blocks `console`, which clone, install from a network, or fetch compilers. In their place stand this
+clone and the program that `cargo xtask test` has built of it. A configuration of cargo lies in the folder above, as a
+stranger may have one: other flags, another target, panics that abort, a target folder elsewhere.
 """
 
 import math

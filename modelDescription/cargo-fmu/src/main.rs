@@ -24,7 +24,7 @@ enum Command {
     New {
         /// The folder, which must not be there yet; the package is named like it
         folder: PathBuf,
-        /// The folder of the SDK's sources; without it the SDK comes from the registry
+        /// The folder of the SDK's sources, needed while the SDK is not on the registry; without it the SDK comes from there
         #[arg(long, value_name = "PATH")]
         sdk: Option<PathBuf>,
     },
