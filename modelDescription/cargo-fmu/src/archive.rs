@@ -74,8 +74,7 @@ pub fn build(subject: &Subject, profile: &str, out: Option<&Path>) -> Outcome<Ve
     let linked = linked::components(&subject.workspace, &subject.package.name)?;
     let mut archives = Vec::new();
     for cdylib in &subject.cdylibs {
-        // The library of the archive takes the place of the one that hands the interface over.
-        let interface = interface::read(subject, cdylib, &target, profile)?;
+        let interface = interface::read(subject, cdylib, &target)?;
         let one = std::slice::from_ref(cdylib);
         let library = compile::here(&subject.workspace, one, &target, profile)?;
         let path = library[&cdylib.name].clone();
@@ -143,7 +142,7 @@ pub fn dist(
     let target = workspace.target.join("fmu-build");
     let mut interfaces = Vec::new();
     for cdylib in &subject.cdylibs {
-        interfaces.push(interface::read(subject, cdylib, &target, "release")?);
+        interfaces.push(interface::read(subject, cdylib, &target)?);
     }
     let mut linked = linked::components(workspace, &subject.package.name)?;
     let mut binaries = vec![Vec::new(); subject.cdylibs.len()];
