@@ -67,6 +67,9 @@ static DISTRIBUTION: [Stage; 9] = [
 /// All tests, with the same packages as in the stages before them, so that none builds again what another has built.
 const TESTS: [&str; 3] = ["test", "--locked", "--workspace"];
 
+/// What no build of this workspace turns on, so that it is looked at, too.
+const EVERYTHING: [&str; 2] = ["--features", "fmu-export/interface"];
+
 const fn stage(name: &'static str, after: &'static [&'static str], work: fn() -> Outcome) -> Stage {
     Stage { name, after, work }
 }
@@ -104,12 +107,12 @@ fn with_libclang(command: &mut Command) -> Outcome {
 
 fn clippy() -> Outcome {
     let what = ["clippy", "--locked", "--workspace", "--all-targets"];
-    with_libclang(cargo(what).args(["--", "-D", "warnings"]))
+    with_libclang(cargo(what).args(EVERYTHING).args(["--", "-D", "warnings"]))
 }
 
 fn rustdoc() -> Outcome {
     let mut doc = cargo(["doc", "--locked", "--workspace", "--no-deps"]);
-    with_libclang(doc.env("RUSTDOCFLAGS", "-D warnings"))
+    with_libclang(doc.args(EVERYTHING).env("RUSTDOCFLAGS", "-D warnings"))
 }
 
 fn python() -> Outcome {
