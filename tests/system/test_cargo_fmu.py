@@ -9,15 +9,18 @@ import pytest
 
 from cargo_fmu import ROOT, cargo_fmu
 
-MODEL = 'fmu-export = {{ path = "{0}/modelDescription/export" }}'.format(ROOT.as_posix())
+MODEL = f'fmu-export = {{ path = "{ROOT.as_posix()}/modelDescription/export" }}'
 
 
-def package(folder: Path, name: str, *, dependency: str = MODEL, lib: str = 'crate-type = ["cdylib"]', more: str = "") -> Path:
+def package(
+    folder: Path, name: str, *, dependency: str = MODEL, lib: str = 'crate-type = ["cdylib"]', more: str = ""
+) -> Path:
     """A package that need not compile."""
     here = folder / name
     (here / "src").mkdir(parents=True)
     (here / "src" / "lib.rs").write_text("", encoding="utf-8")
-    manifest = f'[package]\nname = "{name}"\nversion = "0.1.0"\nedition = "2024"\n[lib]\n{lib}\n[dependencies]\n{dependency}\n{more}'
+    head = f'[package]\nname = "{name}"\nversion = "0.1.0"\nedition = "2024"'
+    manifest = f"{head}\n[lib]\n{lib}\n[dependencies]\n{dependency}\n{more}"
     (here / "Cargo.toml").write_text(manifest, encoding="utf-8")
     return here
 
@@ -34,7 +37,9 @@ def test_of_several_models_in_a_workspace_one_must_be_named(tmp_path: Path) -> N
     for name in ("one", "two"):
         package(tmp_path, name)
     package(tmp_path, "beside", dependency="", lib="")
-    (tmp_path / "Cargo.toml").write_text('[workspace]\nresolver = "3"\nmembers = ["*"]\nexclude = ["target"]\n', encoding="utf-8")
+    (tmp_path / "Cargo.toml").write_text(
+        '[workspace]\nresolver = "3"\nmembers = ["*"]\nexclude = ["target"]\n', encoding="utf-8"
+    )
     said = refused("build", "--offline", cwd=tmp_path)
     assert "expected --package with one of one, two" in said
     said = refused("build", "--offline", "--package", "three", cwd=tmp_path)
@@ -51,9 +56,15 @@ def test_of_several_models_in_a_workspace_one_must_be_named(tmp_path: Path) -> N
     [
         ({"lib": 'crate-type = ["rlib"]'}, "plant builds no shared library: expected in"),
         ({"dependency": ""}, "plant does not depend on fmu-export: expected it among the dependencies in"),
-        ({"more": "[package.metadata.fmu]\nlogo = 'x'\n"}, "[package.metadata.fmu]: unknown field `logo`, expected one of `author`"),
+        (
+            {"more": "[package.metadata.fmu]\nlogo = 'x'\n"},
+            "[package.metadata.fmu]: unknown field `logo`, expected one of `author`",
+        ),
         ({"more": "[package.metadata.fmu]\nicon = 'Cargo.toml'\n"}, 'icon = "Cargo.toml": expected a PNG file'),
-        ({"more": "[package.metadata.fmu]\nguide = 'no.html'\n"}, 'guide = "no.html": expected a path beside Cargo.toml'),
+        (
+            {"more": "[package.metadata.fmu]\nguide = 'no.html'\n"},
+            'guide = "no.html": expected a path beside Cargo.toml',
+        ),
         ({"more": "[package.metadata.fmu]\npicture = 'Cargo.toml'\n"}, "expected a file that begins with <svg"),
     ],
 )
@@ -82,10 +93,22 @@ def test_a_new_package_in_a_workspace_that_does_not_name_it_is_told(tmp_path: Pa
 def test_the_interface_from_the_library_is_that_from_the_declaration(tmp_path: Path, fmu_dir: Path) -> None:
     """The same model, packed by this project, whose packer is linked with it, and by a stranger's way."""
     run = cargo_fmu(
-        "build", "--offline", "--locked", "--package", "fmu-export", "--example", "integrator", "--out", str(tmp_path), cwd=ROOT
+        "build",
+        "--offline",
+        "--locked",
+        "--package",
+        "fmu-export",
+        "--example",
+        "integrator",
+        "--out",
+        str(tmp_path),
+        cwd=ROOT,
     )
     assert run.returncode == 0, run.stderr
-    with zipfile.ZipFile(fmu_dir / "test" / "integrator.fmu") as ours, zipfile.ZipFile(tmp_path / "integrator.fmu") as theirs:
+    with (
+        zipfile.ZipFile(fmu_dir / "test" / "integrator.fmu") as ours,
+        zipfile.ZipFile(tmp_path / "integrator.fmu") as theirs,
+    ):
         assert set(ours.namelist()) == set(theirs.namelist())
         # The libraries tell of the commit, which may have changed since ours was built.
         names = [name for name in ours.namelist() if not name.startswith("binaries/")]
@@ -105,7 +128,9 @@ def test_each_crate_of_the_sdk_can_be_packaged_with_page_and_licences(tmp_path: 
     subprocess.run(command, cwd=ROOT, check=True, capture_output=True, timeout=300)
     for crate in crates:
         (packed,) = (tmp_path / "package").glob(f"{crate}-[0-9]*.crate")
-        listed = subprocess.run(["tar", "tzf", packed], check=True, capture_output=True, encoding="utf-8").stdout.split()
+        listed = subprocess.run(
+            ["tar", "tzf", packed], check=True, capture_output=True, encoding="utf-8"
+        ).stdout.split()
         files = {name.split("/", 1)[1] for name in listed}
         assert {"Cargo.toml", "README.md", "LICENSE-MIT", "LICENSE-APACHE", "src/lib.rs"} <= files
         assert len(files) < 60, "files of the project beside the crate's"

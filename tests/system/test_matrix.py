@@ -51,7 +51,7 @@ def test_the_states_of_platforms_are_known_and_the_first_one_is_run() -> None:
 
 
 def test_the_platforms_are_those_that_are_distributed() -> None:
-    table = (ROOT / "xtask/src/dist/platform.rs").read_text(encoding="utf-8")
+    table = (ROOT / "modelDescription/cargo-fmu/src/platform.rs").read_text(encoding="utf-8")
     runners = re.findall(r'folder: "([^"]+)",.*?runner: Runner::(\w+),', table, flags=re.DOTALL)
     assert len(runners) >= 5
     expected = {folder: "built" if runner == "Nothing" else "run" for folder, runner in runners}

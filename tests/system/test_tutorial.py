@@ -1,8 +1,8 @@
 """docs/tutorial.md, done word by word in a folder outside of this repository, with a space and an umlaut in its path.
 
-Not done: the blocks `console`, which clone, install from a network, or fetch compilers. In their place stand this clone and the
-program that `cargo xtask test` has built of it. A configuration of cargo lies in the folder above, as a stranger may have one:
-other flags, another target, panics that abort, a target folder elsewhere.
+Not done: the blocks `console`, which clone, install from a network, or fetch compilers. In their place stand this
+clone and the program that `cargo xtask test` has built of it. A configuration of cargo lies in the folder above, as a
+stranger may have one: other flags, another target, panics that abort, a target folder elsewhere.
 """
 
 import math
@@ -61,7 +61,12 @@ def done(tmp_path_factory: pytest.TempPathFactory) -> Done:
             after = folder / "where"
             script = f'set -euo pipefail\n{text}\npwd > "{after}"\n'
             run = subprocess.run(
-                ["bash", "-c", script], cwd=where, env=environment(target), capture_output=True, encoding="utf-8", check=False
+                ["bash", "-c", script],
+                cwd=where,
+                env=environment(target),
+                capture_output=True,
+                encoding="utf-8",
+                check=False,
             )
             assert run.returncode == 0, f"{text}{run.stdout}{run.stderr}"
             where = Path(after.read_text(encoding="utf-8").strip())
@@ -139,12 +144,16 @@ def test_a_path_of_the_machine_in_the_model_is_named_and_no_archive_written(done
     out = done.target / "refused"
     words = 'Err(Refusal(format!("{} {step:?}", env!("CARGO_MANIFEST_DIR"))))'
     try:
-        source.write_text(re.sub(r"(fn step\(.*\{\n)", rf"\1        if step.h > 1e6 {{ return {words}; }}\n", kept), "utf-8")
+        source.write_text(
+            re.sub(r"(fn step\(.*\{\n)", rf"\1        if step.h > 1e6 {{ return {words}; }}\n", kept), "utf-8"
+        )
         run = cargo_fmu("build", "--out", str(out), cwd=done.package, target=done.target)
     finally:
         source.write_text(kept, encoding="utf-8")
     assert run.returncode == 1
-    assert re.search(rf"error: \S*libmy_plant\.\w+ carries the path {re.escape(str(done.package))}", run.stderr), run.stderr
+    assert re.search(rf"error: \S*libmy_plant\.\w+ carries the path {re.escape(str(done.package))}", run.stderr), (
+        run.stderr
+    )
     assert not out.exists()
 
 

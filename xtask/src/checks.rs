@@ -11,8 +11,8 @@ use std::process::Command;
 static TEST: [Stage; 15] = [
     stage("fmt", &[], || run(&mut cargo(["fmt", "--all", "--check"]))),
     stage("venv", &[], || Venv::ready(Packages::Test).map(|_| ())),
-    // What the archives are written by.
-    stage("catalogue", &[], || build("catalogue")),
+    // What the archives are written by; what the tests make a stranger's archives with has most in common with it.
+    stage("catalogue", &[], || build(&["catalogue", "cargo-fmu"])),
     stage("fmu", &["catalogue"], || crate::fmu::build_all(false)),
     stage("clippy", &["venv", "catalogue"], clippy),
     stage("rustdoc", &["clippy"], rustdoc),
@@ -70,6 +70,9 @@ static DISTRIBUTION: [Stage; 9] = [
 /// All tests, with the same packages as in the stages before them, so that none builds again what another has built.
 const TESTS: [&str; 3] = ["test", "--locked", "--workspace"];
 
+/// What no build of this workspace turns on, so that it is looked at, too.
+const EVERYTHING: [&str; 2] = ["--features", "fmu-export/interface"];
+
 const fn stage(name: &'static str, after: &'static [&'static str], work: fn() -> Outcome) -> Stage {
     Stage { name, after, work }
 }
@@ -107,12 +110,12 @@ fn with_libclang(command: &mut Command) -> Outcome {
 
 fn clippy() -> Outcome {
     let what = ["clippy", "--locked", "--workspace", "--all-targets"];
-    with_libclang(cargo(what).args(["--", "-D", "warnings"]))
+    with_libclang(cargo(what).args(EVERYTHING).args(["--", "-D", "warnings"]))
 }
 
 fn rustdoc() -> Outcome {
     let mut doc = cargo(["doc", "--locked", "--workspace", "--no-deps"]);
-    with_libclang(doc.env("RUSTDOCFLAGS", "-D warnings"))
+    with_libclang(doc.args(EVERYTHING).env("RUSTDOCFLAGS", "-D warnings"))
 }
 
 fn python() -> Outcome {

@@ -53,7 +53,7 @@ pub fn program<S: AsRef<OsStr>>(
 /// When cargo fails.
 pub fn built(name: &str) -> Outcome<PathBuf> {
     if !in_a_stage() {
-        build(name)?;
+        build(&[name])?;
     }
     let target =
         std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| "target".into(), PathBuf::from);
@@ -61,14 +61,16 @@ pub fn built(name: &str) -> Outcome<PathBuf> {
     Ok(root().join(target).join("debug").join(file))
 }
 
-/// Builds a program of ours. It is built as part of the workspace, so that what it has in common with the tests is compiled
+/// Builds programs of ours. They are built as part of the workspace, so that what they have in common with the tests is compiled
 /// once; and without the importers, whose features would bring another compressor, so that the archives had other bytes.
 ///
 /// # Errors
 /// When cargo fails.
-pub fn build(name: &str) -> Outcome {
-    let packages = ["--locked", "--workspace", "--exclude", "importers"];
-    run(cargo(["build", "--quiet"])
-        .args(packages)
-        .args(["--bin", name]))
+pub fn build(names: &[&str]) -> Outcome {
+    let mut build = cargo(["build", "--quiet", "--locked", "--workspace"]);
+    build.args(["--exclude", "importers"]);
+    for name in names {
+        build.args(["--bin", name]);
+    }
+    run(&mut build)
 }

@@ -9,7 +9,7 @@ use crate::platform::Platform;
 use crate::process::{Failure, Outcome, at};
 use crate::subject::Subject;
 use crate::toolchain::Toolchains;
-use crate::{compile, interface, linked, platform, trace};
+use crate::{compile, describe, interface, linked, platform, trace};
 use fmu_archive::archive::Contents;
 use fmu_archive::{Component, Guide, Interface, Package};
 use std::path::{Path, PathBuf};
@@ -76,8 +76,7 @@ pub fn build(subject: &Subject, profile: &str, out: Option<&Path>) -> Outcome<Ve
     let linked = linked::components(&subject.workspace, &subject.package.name)?;
     let mut archives = Vec::new();
     for cdylib in &subject.cdylibs {
-        // The library of the archive takes the place of the one that hands the interface over.
-        let interface = interface::read(subject, cdylib, &target, profile)?;
+        let interface = interface::read(subject, cdylib, &target)?;
         let one = std::slice::from_ref(cdylib);
         let library = compile::here(&subject.workspace, one, &target, profile)?;
         let path = library[&cdylib.name].clone();
@@ -98,6 +97,20 @@ pub fn build(subject: &Subject, profile: &str, out: Option<&Path>) -> Outcome<Ve
         )?);
     }
     Ok(archives)
+}
+
+/// The variables of all models of the subject as tables: no archive is built for that.
+///
+/// # Errors
+/// When something does not compile, or a declaration breaks a rule.
+pub fn describe(subject: &Subject) -> Outcome<Vec<String>> {
+    let target = subject.workspace.target.join("fmu-build");
+    let table = |cdylib| {
+        let interface = interface::read(subject, cdylib, &target)?;
+        let xml = fmu_archive::xml(&interface, Package::default());
+        describe::table(&xml).map_err(|error| Failure::Found(error.to_string()))
+    };
+    subject.cdylibs.iter().map(table).collect()
 }
 
 /// Whether it offers the standard's functions and no others. Says what it calls that rounds differently elsewhere.
@@ -145,7 +158,7 @@ pub fn dist(
     let target = workspace.target.join("fmu-build");
     let mut interfaces = Vec::new();
     for cdylib in &subject.cdylibs {
-        interfaces.push(interface::read(subject, cdylib, &target, "release")?);
+        interfaces.push(interface::read(subject, cdylib, &target)?);
     }
     let mut linked = linked::components(workspace, &subject.package.name)?;
     let mut binaries = vec![Vec::new(); subject.cdylibs.len()];

@@ -39,7 +39,14 @@ pub fn here(
     target: &Path,
     profile: &str,
 ) -> Outcome<BTreeMap<String, PathBuf>> {
-    let libraries = with(workspace, cdylibs, target, profile, &[])?;
+    let mut build = for_this_machine(workspace, target)?;
+    // The encoded form takes precedence over RUSTFLAGS and over cargo's configuration, and takes spaces in paths.
+    build
+        .args(["--profile", profile])
+        .env("FMU_GIT_HASH", git_hash(workspace))
+        .env("CARGO_ENCODED_RUSTFLAGS", remapping(workspace, &[])?)
+        .envs(as_exported(profile));
+    let libraries = built(&mut build, cdylibs, std::env::consts::DLL_SUFFIX)?;
     for path in libraries.values() {
         let bytes = std::fs::read(path).map_err(at(path))?;
         forbid_private_paths(workspace, &path.to_string_lossy(), &bytes)?;
@@ -47,30 +54,38 @@ pub fn here(
     Ok(libraries)
 }
 
-/// Builds libraries for this machine, with further options of cargo.
+/// Builds a library that hands its interface over, as fast as can be, into the folder `target`; returns where it lies. The folder
+/// must be another one than that of the archive's library: cargo gives both the same file name.
 ///
 /// # Errors
 /// When cargo fails.
-pub(crate) fn with(
+pub fn handing_over(
     workspace: &Workspace,
-    cdylibs: &[Cdylib],
+    cdylib: &Cdylib,
     target: &Path,
-    profile: &str,
-    options: &[&str],
-) -> Outcome<BTreeMap<String, PathBuf>> {
+    feature: &str,
+) -> Outcome<PathBuf> {
+    let mut build = for_this_machine(workspace, target)?;
+    build
+        .args(["--profile", "dev", "--features", feature])
+        .env("CARGO_ENCODED_RUSTFLAGS", "")
+        .env("CARGO_PROFILE_DEV_OPT_LEVEL", "0")
+        .env("CARGO_PROFILE_DEV_DEBUG", "false")
+        .env("CARGO_PROFILE_DEV_PANIC", "unwind");
+    let one = std::slice::from_ref(cdylib);
+    let mut libraries = built(&mut build, one, std::env::consts::DLL_SUFFIX)?;
+    libraries
+        .remove(&cdylib.name)
+        .ok_or(Failure::Missing("cargo has made no library"))
+}
+
+fn for_this_machine(workspace: &Workspace, target: &Path) -> Outcome<Command> {
     let mut build = workspace.cargo("build");
     // Said, because the configuration of somebody's cargo may say another one.
-    build.args(["--target", &host()?]);
     build
-        .args(["--profile", profile, "--target-dir"])
+        .args(["--target", &host()?, "--target-dir"])
         .arg(target);
-    build.args(options);
-    // The encoded form takes precedence over RUSTFLAGS and over cargo's configuration, and takes spaces in paths.
-    build
-        .env("FMU_GIT_HASH", git_hash(workspace))
-        .env("CARGO_ENCODED_RUSTFLAGS", remapping(workspace, &[])?)
-        .envs(as_exported(profile));
-    built(&mut build, cdylibs, std::env::consts::DLL_SUFFIX)
+    Ok(build)
 }
 
 /// What a library of an archive needs, whatever its workspace says of the profile: panics that can be caught, no function

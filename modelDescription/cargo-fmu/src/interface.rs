@@ -11,25 +11,17 @@ use std::path::Path;
 /// The word with which this program is started to load a library: then follow the library, and the file for its interface.
 pub const LOAD: &str = "load-interface";
 
-/// Builds the library and asks it. The folder and the profile are those of the build for the archive, which has most in common
-/// with it.
+/// Builds the library, into the folder `target`, and asks it.
 ///
 /// # Errors
 /// When it does not compile or load, or its declaration breaks a rule.
-pub fn read(
-    subject: &Subject,
-    cdylib: &Cdylib,
-    target: &Path,
-    profile: &str,
-) -> Outcome<Interface> {
-    let one = std::slice::from_ref(cdylib);
-    let features = ["--features", &subject.feature];
-    let library = compile::with(&subject.workspace, one, target, profile, &features)?;
-    let library = &library[&cdylib.name];
+pub fn read(subject: &Subject, cdylib: &Cdylib, target: &Path) -> Outcome<Interface> {
+    let target = target.join("interface");
+    let library = compile::handing_over(&subject.workspace, cdylib, &target, &subject.feature)?;
     let written = library.with_extension("interface");
     let own = std::env::current_exe().map_err(at(Path::new("cargo-fmu")))?;
     let mut child = subject.workspace.program(own);
-    run(child.arg(LOAD).arg(library).arg(&written)).map_err(|failure| {
+    run(child.arg(LOAD).arg(&library).arg(&written)).map_err(|failure| {
         Failure::Found(format!(
             "the interface of {cdylib} cannot be read: {failure}"
         ))

@@ -24,7 +24,7 @@ enum Command {
     New {
         /// The folder, which must not be there yet; the package is named like it
         folder: PathBuf,
-        /// The folder of the SDK's sources; without it the SDK comes from the registry
+        /// The folder of the SDK's sources, needed while the SDK is not on the registry; without it the SDK comes from there
         #[arg(long, value_name = "PATH")]
         sdk: Option<PathBuf>,
     },
@@ -68,7 +68,7 @@ enum Command {
         #[arg(long, value_name = "PROGRAM")]
         validator: Option<PathBuf>,
     },
-    /// Show the variables of FMUs as a table: of those given, or of those of a package, which are built first
+    /// Show the variables of FMUs as a table: of those given, or of the models of a package
     Describe {
         #[command(flatten)]
         choice: Choice,
@@ -167,11 +167,11 @@ fn run(command: Command) -> Outcome {
             }
         }
         Command::Describe { choice, fmu } => {
-            let fmu = if fmu.is_empty() {
-                archive::build(&choice.subject()?, "release", None)?
-            } else {
-                fmu
-            };
+            if fmu.is_empty() {
+                for table in archive::describe(&choice.subject()?)? {
+                    print!("{table}");
+                }
+            }
             for path in fmu {
                 print!("{}", describe::archive(&path)?);
             }

@@ -147,4 +147,41 @@ mod tests {
             forbid_private_paths(&workspace(), "index.html", b"see /source/src/lib.rs").is_ok()
         );
     }
+
+    #[test]
+    fn the_commit_is_told_of_a_package_that_git_knows_and_of_no_other() {
+        let folder = std::env::temp_dir().join(format!("cargo-fmu-git-{}", std::process::id()));
+        let package = folder.join("a plant");
+        std::fs::create_dir_all(&package).expect("writable");
+        std::fs::write(package.join("Cargo.toml"), "one").expect("writable");
+        let there = Workspace {
+            folder: package.clone(),
+            ..workspace()
+        };
+        let git = |arguments: &[&str]| {
+            let who = ["-c", "user.name=me", "-c", "user.email=me@example.org"];
+            let output = program("git", who)
+                .args(arguments)
+                .current_dir(&folder)
+                .output();
+            assert!(output.expect("git").status.success(), "{arguments:?}");
+        };
+        git(&["init", "--quiet"]);
+        git(&["commit", "--quiet", "--allow-empty", "--message", "first"]);
+        assert_eq!(
+            git_hash(&there),
+            "unknown",
+            "in a repository of something else"
+        );
+        git(&["add", "."]);
+        git(&["commit", "--quiet", "--message", "second"]);
+        let hash = git_hash(&there);
+        assert!(
+            hash.len() == 40 && hash.chars().all(|c| c.is_ascii_hexdigit()),
+            "{hash}"
+        );
+        std::fs::write(package.join("Cargo.toml"), "two").expect("writable");
+        assert_eq!(git_hash(&there), format!("{hash}-dirty"));
+        std::fs::remove_dir_all(folder).expect("was there");
+    }
 }
