@@ -1,4 +1,4 @@
-"""References inside an FMU, as the layered standard FMI-LS-REF has them: what the FMU should do, for an importer to try.
+"""References inside an FMU, as FMI-LS-REF has them: what the FMU should do, for an importer to try.
 
 Reading and replaying, any FMU's (the modules need nothing of the harness but the validator's archive, rules and child):
 
@@ -10,7 +10,9 @@ Reading and replaying, any FMU's (the modules need nothing of the harness but th
 | `manifest.py`, `experiments.py` | what there is; what is to be run |
 | `variables.py`, `series.py`, `parameters.py` | columns and parameters as variables of the FMU, also of vectors |
 | `player.py` | one experiment, run by fmpy, in a process of its own |
+| `outcome.py` | by how much outputs differ |
 | `replay.py` | all of it: `replay(path)` |
 
-Writing those of this project's FMUs: `recipes.toml`, `recipes.py`, `record.py`, `sets.py`, `requirements.py`, `write.py`.
+Writing those of this project's FMUs: `recipes.toml`, `recipes.py`, `record.py`, `sets.py`, `requirements.py`,
+`document.html.jinja`, `write.py`.
 """

@@ -1,7 +1,7 @@
 """`*.exp`: experiments as MA-HS-Experiments has them, in both its forms.
 
-The draft once had start time, stop time and step size at `Experiment`; now they stand at its child `TransientSimulation`,
-beside which there are kinds of analysis that are no simulation.
+The draft once had start time, stop time and step size at `Experiment`. Now they stand at its child
+`TransientSimulation`, beside which there are kinds of analysis that are no simulation.
 """
 
 from dataclasses import dataclass
@@ -97,7 +97,9 @@ def _broken(element: Any, where: str) -> list[Finding]:
     stated = {name: _settings(element).get(name) for name in TIMES} | {"tolerance": element.get("tolerance")}
     values = {name: number(text) for name, text in stated.items()}
     found += [
-        at(f"{name} {text!r}", "a finite number") for name, text in stated.items() if text is not None and values[name] is None
+        at(f"{name} {text!r}", "a finite number")
+        for name, text in stated.items()
+        if text is not None and values[name] is None
     ]
     start, stop, step, tolerance = (values[name] for name in (*TIMES, "tolerance"))
     if stop is not None and not stop > (start or 0.0):

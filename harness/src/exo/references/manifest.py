@@ -11,8 +11,11 @@ from exo.references.names import CSV_TYPE, DESCRIPTION, FMI_LS, NAME
 from exo.references.xml import children, local, located, parse
 from exo.validate.rule import Finding
 
-ROLES = """document requirement specification model parameter system testcase experiment result method rationale report request
-    delivery configuration signature serialized-state meta-data other""".split()
+ROLES = (
+    *("document", "requirement", "specification", "model", "parameter", "system", "testcase", "experiment", "result"),
+    *("method", "rationale", "report", "request", "delivery", "configuration", "signature", "serialized-state"),
+    *("meta-data", "other"),
+)
 EXPERIMENTS = ("smoke-test", "validation", "uncertainty-analysis")
 #: Any platform may follow a state; three purposes may follow an experiment.
 ROLE = re.compile(rf"({'|'.join(ROLES)}|experiment/({'|'.join(EXPERIMENTS)})|serialized-state/.*)")
@@ -34,7 +37,7 @@ class Related:
     @property
     def main_role(self) -> str:
         """The role without what follows a slash."""
-        return self.role.split("/")[0]
+        return self.role.split("/", maxsplit=1)[0]
 
 
 def resolve(base: str, source: str) -> str | None:
@@ -114,4 +117,4 @@ def _related(element: Any, where: str) -> list[Finding]:
 
 def is_csv(kind: str) -> bool:
     """Whether a type means comma-separated values, whatever parameters it has."""
-    return kind.split(";")[0].strip().lower() == CSV_TYPE
+    return kind.split(";", maxsplit=1)[0].strip().lower() == CSV_TYPE

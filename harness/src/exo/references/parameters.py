@@ -52,10 +52,7 @@ def _one(parameter: Any, where: str, variables: Mapping[str, Any], values: Value
 
 def _put(values: Values, meant: Place, text: str) -> None:
     variable = meant.variable
-    if variable.type in ("String", "Binary"):
-        parts = [text]
-    else:
-        parts = text.split()
+    parts = [text] if variable.type in ("String", "Binary") else text.split()
     if len(parts) != meant.size:
         raise ValueError(f"{meant.size} values" if meant.size > 1 else f"a {variable.type}")
     converted = [_item(variable, part) for part in parts]

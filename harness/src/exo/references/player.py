@@ -1,6 +1,7 @@
 """Runs one experiment with fmpy and tells what came out; a program of its own, as `validate/probe.py` is.
 
-fmpy's own way to set inputs is not taken: it cannot set vectors of FMI 3.0 that are discrete, nor vectors beside scalars.
+fmpy's own way to set inputs is not taken: it cannot set vectors of FMI 3.0 that are discrete, nor vectors beside
+scalars.
 """
 
 import json
@@ -27,8 +28,10 @@ class Stimulus:
         self.setter = f"set{integer if task['kind'] == 'Enumeration' else task['kind']}"
 
     def at(self, t: float) -> list[float] | list[int]:
-        """The values at an instant: on a straight line between two samples, or held; held before the first and after the
-        last one. Of several samples at one instant the last one counts."""
+        """The values at an instant: on a straight line between two samples, or held; before the first sample its values.
+
+        Of several samples at one instant the last one counts.
+        """
         right = bisect_right(self.time, t + SAME * max(1.0, abs(t)))
         left = self.values[max(right - 1, 0)]
         if self.whole:

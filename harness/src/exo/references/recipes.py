@@ -34,7 +34,7 @@ class Run(Data):
     #: What the operator does, in place of the case's segments and of its profile `tau_h`.
     hand: QualifiedParameters
     #: In place of the case's other profiles.
-    profiles: dict[str, tuple[Segment, ...]] = {}
+    profiles: dict[str, tuple[Segment, ...]] = Field(default_factory=dict)
     record: Annotated[dict[str, Part], Field(min_length=1)]
 
 

@@ -78,18 +78,19 @@ def record(name: str, run: Run, archives: Mapping[str, Archive]) -> list[Experim
     """One experiment for each component that the run records. `archives` are opened FMUs by archive name."""
     wired = coupled(run)
     whole = simulate(plan=wired, archives=archives)
-    return [_alone(name, run, wired, whole, component, archives) for component in run.record]
+    return [
+        _alone(name=name, run=run, wired=wired, whole=whole, component=component, archives=archives)
+        for component in run.record
+    ]
 
 
 def _alone(
-    name: str, run: Run, wired: Plan, whole: Recording, component: str, archives: Mapping[str, Archive]
+    *, name: str, run: Run, wired: Plan, whole: Recording, component: str, archives: Mapping[str, Archive]
 ) -> Experiment:
     part = run.record[component]
     archive = archives[wired.components[component]]
     prefix = f"{component}."
-    parameters = {
-        key.removeprefix(prefix): value for key, value in wired.parameters.items() if key.startswith(prefix)
-    }
+    parameters = {key.removeprefix(prefix): value for key, value in wired.parameters.items() if key.startswith(prefix)}
     step = wired.step * part.every
     stimuli = _stimuli(archive, wired, whole, prefix, part)
     steps = len(whole.time) // part.every
@@ -106,9 +107,9 @@ def _alone(
         step=step,
         duration=steps * step,
         parameters=parameters,
-        stimuli_time=np.arange(steps) * step,
+        stimuli_time=np.arange(steps, dtype=np.float64) * np.float64(step),
         stimuli=stimuli,
-        time=np.arange(steps + 1)[shown] * step,
+        time=shown.astype(np.float64) * np.float64(step),
         results={key: rounded(column[shown], RESULT) for key, column in results.items()},
     )
 
@@ -146,7 +147,7 @@ def play(
     steps: int,
     outputs: tuple[str, ...],
 ) -> Columns:
-    """One FMU alone: outputs at all communication points, `steps` + 1 of each, inputs set at the beginning of a step."""
+    """One FMU alone, inputs set at the beginning of each step: outputs at all `steps` + 1 communication points."""
     with Instance(archive, "reference") as instance:
         part = Component(instance, list(stimuli), steps)
         for name, column in stimuli.items():
@@ -169,6 +170,5 @@ def play(
         if missing:
             raise ScenarioError(f"{archive.path.name}: {missing[0]} is no output{close_matches(missing[0], kinds)}")
         return {
-            name: np.array(part.y[kinds[name]][:, part.output(name, kinds[name])], dtype=np.float64)
-            for name in outputs
+            name: np.array(part.y[kinds[name]][:, part.output(name, kinds[name])], dtype=np.float64) for name in outputs
         }

@@ -2,7 +2,6 @@
 
 from collections.abc import Mapping
 from contextlib import ExitStack
-from dataclasses import dataclass, field
 from pathlib import Path, PurePosixPath
 from typing import Any
 
@@ -13,7 +12,8 @@ from numpy.typing import NDArray
 from exo.references import experiments, manifest, parameters, rules, series
 from exo.references.experiments import TRANSIENT, Experiment, File
 from exo.references.names import EXPERIMENTS_TYPE, FOLDER, MANIFEST, OLD_EXPERIMENTS_TYPE, SSV_TYPE
-from exo.references.variables import NUMBERS, REALS, nominal, size, starts, unit
+from exo.references.outcome import Outcome, Replay, judge, sampled
+from exo.references.variables import REALS, size, starts
 from exo.validate import child
 from exo.validate.archive import Contents, open_archive
 from exo.validate.load import host_platforms, missing
@@ -21,8 +21,6 @@ from exo.validate.rule import Finding
 from exo.validate.workspace import workspace
 
 PLAYER = Path(__file__).with_name("player.py")
-#: What outputs may differ by where nothing is stated, and what never counts: rounding of a column that is zero.
-UNSTATED, NOTHING = 1e-3, 1e-12
 #: Where neither experiment nor description say how long it is and in what steps (s).
 STOP, STEPS = 1.0, 1000
 #: The name of what no experiments file has named.
@@ -31,63 +29,29 @@ DEFAULT = "(default)"
 MAX_STEPS = 10_000_000
 
 
-@dataclass(frozen=True)
-class Outcome:
-    """How one output of an experiment came out."""
-
-    experiment: str
-    output: str
-    unit: str
-    #: Largest difference, and where it is (s); as much may be.
-    difference: float
-    at: float
-    allowed: float
-
-    @property
-    def good(self) -> bool:
-        """Whether the tolerance is kept."""
-        return self.difference <= self.allowed
-
-
-@dataclass
-class Replay:
-    """What became of an FMU's references."""
-
-    findings: list[Finding] = field(default_factory=list)
-    outcomes: list[Outcome] = field(default_factory=list)
-    #: Sentences: what was not looked at, and why.
-    skipped: list[str] = field(default_factory=list)
-
-    def sentences(self) -> list[str]:
-        """One for each experiment that was replayed: by how much its outputs differ."""
-        said = []
-        for name in dict.fromkeys(one.experiment for one in self.outcomes):
-            mine = [one for one in self.outcomes if one.experiment == name]
-            worst = max(mine, key=lambda one: one.difference / one.allowed)
-            said.append(
-                f"experiment {name}: {len(mine)} outputs replayed; {worst.output} differs most, by {worst.difference:.3g} "
-                f"{worst.unit} of {worst.allowed:.3g} {worst.unit}".replace("  ", " ")
-            )
-        return said
-
-
 def replay(path: Path, *, run: bool = True) -> Replay:
     """Reads the references of an FMU and, with `run`, plays its experiments, each in a process of its own.
 
-    Nothing happens where there are none. What is wrong is a finding; no exception leaves but OSError for a file that
-    cannot be opened, and FmuError where it cannot be extracted.
+    Nothing happens where there are none. What is wrong is a finding, also with the archive; FmuError where it cannot be
+    extracted.
     """
-    answer = Replay()
     with ExitStack() as stack:
-        contents, _ = open_archive(path, stack)
-        where = f"{FOLDER}/{MANIFEST}"
-        if contents is None or where not in contents.files:
-            return answer
-        try:
-            description = fmpy.read_model_description(str(path), validate=False)
-        except Exception:  # fmpy raises what its parts raise; what is wrong the validator says
-            answer.skipped.append("references: the description cannot be read")
-            return answer
+        contents, found = open_archive(path, stack)
+        return look(contents, path, run=run) if contents is not None else Replay(found)
+
+
+def look(contents: Contents, path: Path, *, run: bool) -> Replay:
+    """The same on an archive that is open already; `path` is its file."""
+    answer = Replay()
+    where = f"{FOLDER}/{MANIFEST}"
+    if where not in contents.files:
+        return answer
+    try:
+        description = fmpy.read_model_description(str(path), validate=False)
+    except Exception:  # fmpy raises what its parts raise; what is wrong the validator says
+        answer.skipped.append("references: the description cannot be read")
+        return answer
+    with ExitStack() as stack:
         _Reader(contents, description, answer).read(where, stack if run else None)
     return answer
 
@@ -129,8 +93,8 @@ class _Reader:
             self.contents.extract(folder)
             if not (folder / "resources").exists():  # it may be a file
                 (folder / "resources").mkdir()
-            for one, task in tasks:
-                self._play(one, task | {"folder": str(folder)})
+            for experiment, task in tasks:
+                self._play(experiment, task | {"folder": str(folder)})
 
     def _experiments(self, one: manifest.Related) -> list[Experiment]:
         assert one.path is not None
@@ -221,7 +185,7 @@ class _Reader:
         start = stated(one.start, "startTime", 0.0)
         stop = stated(one.stop, "stopTime", start + STOP)
         step = stated(one.step, "stepSize", (stop - start) / STEPS)
-        if not stop > start or not 0.0 < step or (stop - start) / step > MAX_STEPS:
+        if not stop > start or not step > 0.0 or (stop - start) / step > MAX_STEPS:
             value = f"from {start:g} s to {stop:g} s in steps of {step:g} s"
             self.answer.findings.append(rules.EXPERIMENT.at(one.where, value, f"at most {MAX_STEPS} steps forward"))
             return None
@@ -259,7 +223,9 @@ class _Reader:
         if self.description.coSimulation is None:
             self.answer.skipped.append("experiments of the references: the FMU has no co-simulation")
             return False
-        if not any(name.startswith(tuple(f"binaries/{one}/" for one in host_platforms())) for name in self.contents.files):
+        if not any(
+            name.startswith(tuple(f"binaries/{one}/" for one in host_platforms())) for name in self.contents.files
+        ):
             self.answer.skipped.append(f"experiments of the references: no library for {' or '.join(host_platforms())}")
             return False
         return True
@@ -290,36 +256,28 @@ class _Reader:
             if column.place.element is not None:
                 got = got[:, [column.place.element]]
             continuous = variable.type in REALS and variable.variability == "continuous"
-            self._judge(one, column, results.time, _sampled(time, got, results.time, continuous))
-
-    def _judge(self, one: Experiment, column: series.Column, time: NDArray[Any], got: NDArray[Any]) -> None:
-        variable = column.place.variable
-        apart = np.abs(got - column.values).max(axis=1)
-        apart[np.isnan(apart)] = np.inf
-        row = int(apart.argmax())
-        largest = max(float(np.abs(column.values).max()), nominal(variable))
-        tolerance = UNSTATED if one.tolerance is None else one.tolerance
-        outcome = Outcome(
-            experiment=one.name,
-            output=column.name,
-            unit=unit(variable),
-            difference=float(apart[row]),
-            at=float(time[row]),
-            allowed=max(tolerance * largest, NOTHING),
-        )
-        self.answer.outcomes.append(outcome)
-        if not outcome.good and one.name != DEFAULT:
-            rule = rules.UNSTATED if one.tolerance is None else rules.RESULT
-            value = f"{one.name}: {column.name} differs by {outcome.difference:.4g} {outcome.unit} at {outcome.at:g} s"
-            expected = f"at most {outcome.allowed:.4g} {outcome.unit}".rstrip()
-            self.answer.findings.append(rule.at(f"{_path(one.references)}: column {column.name}", value, expected))
+            there = sampled(time, got, results.time, continuous=continuous)
+            outcome = judge(one, column, results.time, there)
+            self.answer.outcomes.append(outcome)
+            if not outcome.good and one.name != DEFAULT:
+                self.answer.findings.append(broken(one, outcome))
 
 
 def _default(one: manifest.Related) -> Experiment:
-    """A result that no experiment names, as that of the default experiment, which Reference-FMUs means by it. The standard
-    does not say so: a difference is told, and is no finding."""
+    """A result that no experiment names, as that of the default experiment, which Reference-FMUs means by it.
+
+    The standard does not say so: a difference is told, and is no finding.
+    """
     file = File(one.type, one.path, one.source, one.where)
     return Experiment(DEFAULT, TRANSIENT, None, None, None, None, None, None, file, one.where)
+
+
+def broken(one: Experiment, outcome: Outcome) -> Finding:
+    """The finding that an output differs by too much."""
+    rule = rules.UNSTATED if one.tolerance is None else rules.RESULT
+    value = f"{one.name}: {outcome.output} differs by {outcome.difference:.4g} {outcome.unit} at {outcome.at:g} s"
+    expected = f"at most {outcome.allowed:.4g} {outcome.unit}".rstrip()
+    return rule.at(f"{_path(one.references)}: column {outcome.output}", value, expected)
 
 
 def _path(file: File | None) -> str:
@@ -350,18 +308,3 @@ def _inputs(stimuli: series.Series) -> list[dict[str, Any]]:
         }
         for name, rows in values.items()
     ]
-
-
-def _sampled(time: NDArray[Any], values: NDArray[Any], wanted: NDArray[Any], continuous: bool) -> NDArray[Any]:
-    """Values at the wanted times: at a communication point those, in between on a straight line or those before."""
-    after = np.clip(np.searchsorted(time, wanted), 0, len(time) - 1)
-    before = np.clip(after - 1, 0, None)
-    nearest = np.where(np.abs(time[after] - wanted) <= np.abs(time[before] - wanted), after, before)
-    met = np.isclose(time[nearest], wanted, rtol=1e-9, atol=1e-9)
-    span = np.where(time[after] > time[before], time[after] - time[before], 1.0)
-    share = np.clip((wanted - time[before]) / span, 0.0, 1.0)[:, None] if continuous else 0.0
-    between = values[before] + share * (values[after] - values[before])
-    return np.where(met[:, None], values[nearest], between)
-
-
-__all__ = ["NUMBERS", "Outcome", "Replay", "replay"]

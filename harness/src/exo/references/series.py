@@ -48,7 +48,9 @@ def read(data: bytes, where: str, variables: Mapping[str, Any]) -> tuple[Series 
     header = [name.strip() for name in rows[0]] if rows else []
     if not header or header[0].lower() != TIME or len(rows) < 2:
         said = "empty" if not header else f"first column {header[0]!r}" if header[0].lower() != TIME else "no row"
-        return None, [rules.SERIES.at(where, said, "a header that begins with time, and rows of numbers between commas")]
+        return None, [
+            rules.SERIES.at(where, said, "a header that begins with time, and rows of numbers between commas")
+        ]
     if twice := sorted({name for name in header if header.count(name) > 1}):
         return None, [rules.SERIES.at(where, f"{', '.join(twice)} twice", "each column once")]
     found: list[Finding] = []
@@ -80,7 +82,9 @@ def _values(
         if len(found) >= TOLD:
             break
         if len(row) != len(header):
-            found.append(rules.SERIES.at(f"{where}: row {line}", f"{len(row)} cells", f"{len(header)}, as in the header"))
+            found.append(
+                rules.SERIES.at(f"{where}: row {line}", f"{len(row)} cells", f"{len(header)}, as in the header")
+            )
             continue
         for index, column in table.items():
             size = places[index].size if index else 1
@@ -89,9 +93,9 @@ def _values(
                 if len(parts) != size:
                     raise ValueError("a number" if size == 1 else f"{size} numbers with blanks between them")
                 column.append([_number(part, places.get(index)) for part in parts])
-            except ValueError as expected:
+            except ValueError as wanted:
                 name = f"{where}: row {line}, column {header[index]}"
-                found.append(rules.SERIES.at(name, repr(row[index]), str(expected)))
+                found.append(rules.SERIES.at(name, repr(row[index]), str(wanted)))
                 break
         if not found and len(table[0]) > 1 and table[0][-1] < table[0][-2]:
             earlier, later = table[0][-2][0], table[0][-1][0]

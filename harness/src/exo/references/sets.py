@@ -75,8 +75,9 @@ def of(archive: str, experiments: list[Experiment]) -> list[ParameterSet]:
             gains = by_element(preset.qualified({FMU: archive}))
             values = {key.removeprefix(f"{FMU}."): value for key, value in gains.items()}
             add(f"preset-{preset.name}", values, preset.title, f"preset {preset.name}")
-    for one in experiments:
-        add(f"experiment-{one.name}", one.parameters, one.title, one.scenario)
+    for experiment in experiments:
+        if for_experiment(found, experiment) is None:
+            add(f"experiment-{experiment.name}", experiment.parameters, experiment.title, experiment.scenario)
     return [one for one in found if one.values]
 
 

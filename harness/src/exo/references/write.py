@@ -4,7 +4,7 @@
 |---|---|
 | `fmi-ls-manifest.xml` | the manifest: every other file with type, role and a sentence |
 | `smoke-tests.exp` | the experiments, in the format MA-HS-Experiments |
-| `<experiment>-in.csv`, `<experiment>-ref.csv` | inputs at the beginning of each step; outputs at communication points |
+| `<experiment>-in.csv`, `…-ref.csv` | inputs at the beginning of each step; outputs at communication points |
 | `parameters/<set>.ssv` | SSP parameter sets: of the paper's cases, the presets, the experiments |
 | `requirements.md` | what the paper asks for and the scenarios are judged by |
 
@@ -12,11 +12,11 @@
 """
 
 import csv
-import html
 import io
 from collections.abc import Mapping
 from pathlib import Path
 
+import jinja2
 import numpy as np
 from lxml import etree
 from numpy.typing import NDArray
@@ -24,11 +24,11 @@ from numpy.typing import NDArray
 from exo.fmu import Archive
 from exo.folder import write_file
 from exo.references import recipes, requirements, sets
-from exo.references.names import DESCRIPTION, EXPERIMENTS_TYPE, FOLDER, FMI_LS, MANIFEST, NAME, SSV_TYPE, VERSION
+from exo.references.names import DESCRIPTION, EXPERIMENTS_TYPE, FMI_LS, FOLDER, MANIFEST, NAME, SSV_TYPE, VERSION
 from exo.references.record import RESULT, STIMULUS, Columns, Experiment, record
 
-#: Of each column's largest magnitude. A result has three digits more; another platform gives the same bits; an importer
-#: that sums its time up, in place of counting steps, is off by less than a thousandth of it.
+#: Of each column's largest magnitude. A result has three digits more; another platform gives the same bits; an
+#: importer that sums its time up, in place of counting steps, is off by less than a thousandth of it.
 TOLERANCE = 1e-6
 EXP = "smoke-tests.exp"
 REQUIREMENTS = "requirements.md"
@@ -42,18 +42,19 @@ def contents(archives: Mapping[str, Archive]) -> dict[str, bytes]:
     for name, run in data.runs.items():
         for experiment in record(name, run, archives):
             by_archive.setdefault(experiment.archive, []).append(experiment)
-    files = {}
+    files: dict[str, bytes] = {}
     for file, experiments in sorted(by_archive.items()):
         name = file.removesuffix(".fmu")
         found = sets.of(file, experiments)
         inside = {
-            **{one.source: one.content(archives[file]) for one in found},
+            **{values.source: values.content(archives[file]) for values in found},
             REQUIREMENTS: requirements.text(name, data.requirements, experiments).encode(),
             EXP: _experiments(name, experiments, found),
             MANIFEST: _manifest(experiments, found),
         }
         for one in experiments:
-            inside[_stimuli(one)] = _csv(one.stimuli_time, one.stimuli, STIMULUS)
+            if one.stimuli:
+                inside[_stimuli(one)] = _csv(one.stimuli_time, one.stimuli, STIMULUS)
             inside[_results(one)] = _csv(one.time, one.results, RESULT)
         files |= {f"{name}/{FOLDER}/{path}": data for path, data in sorted(inside.items())}
         files[f"{name}/{DOCUMENT}"] = _document(name, experiments, found).encode()
@@ -102,9 +103,7 @@ def _experiments(name: str, experiments: list[Experiment], found: list[sets.Para
         "Experiments", name=name, description="Short runs of the paper's experiments, each of this FMU alone"
     )
     for one in experiments:
-        element = etree.SubElement(
-            root, "Experiment", name=one.name, description=one.title, tolerance=repr(TOLERANCE)
-        )
+        element = etree.SubElement(root, "Experiment", name=one.name, description=one.title, tolerance=repr(TOLERANCE))
         etree.SubElement(
             element,
             "TransientSimulation",
@@ -144,60 +143,28 @@ def _manifest(experiments: list[Experiment], found: list[sets.ParameterSet]) -> 
         if one.stimuli:
             related("text/csv", _stimuli(one), "other", f"Inputs of the experiment {one.name}", labels)
         related("text/csv", _results(one), "result", f"Outputs of the experiment {one.name}", labels)
-    for one in found:
-        labels = [f"scenario:{scenario}" for scenario in one.scenarios]
-        related(SSV_TYPE, one.source, "parameter", "; ".join(one.titles), labels)
+    for values in found:
+        labels = [f"scenario:{scenario}" for scenario in values.scenarios]
+        related(SSV_TYPE, values.source, "parameter", "; ".join(values.titles), labels)
     related("text/html", f"../../{DOCUMENT}", "document", "What these files are and how they are used", [])
     return _xml(root)
 
 
 def _document(name: str, experiments: list[Experiment], found: list[sets.ParameterSet]) -> str:
-    def rows(cells: list[tuple[str, ...]]) -> str:
-        return "".join(f"<tr>{''.join(f'<td>{cell}</td>' for cell in row)}</tr>\n" for row in cells)
-
-    runs = rows(
-        [
-            (
-                f"<code>{one.name}</code>",
-                html.escape(one.title),
-                f"{one.duration:g} s in steps of {one.step:g} s",
-                ", ".join(f"<code>{key}</code>" for key in one.stimuli) or "–",
-                ", ".join(f"<code>{key}</code>" for key in one.results),
-            )
-            for one in experiments
-        ]
+    loader = jinja2.PackageLoader("exo", "references")
+    environment = jinja2.Environment(loader=loader, autoescape=True, trim_blocks=True, undefined=jinja2.StrictUndefined)
+    return (
+        environment.get_template("document.html.jinja").render(
+            name=name,
+            folder=FOLDER,
+            version=VERSION,
+            tolerance=f"{TOLERANCE:g}",
+            experiments=experiments,
+            sets=found,
+            requirements=REQUIREMENTS,
+        )
+        + "\n"
     )
-    parameters = rows([(f"<code>{one.name}</code>", html.escape("; ".join(one.titles))) for one in found])
-    return f"""<!DOCTYPE html>
-<html lang="en">
-<head>
-<meta charset="utf-8">
-<title>References of {name}</title>
-</head>
-<body>
-<h1>References of {name}</h1>
-<p>The folder <code>{FOLDER}</code> of the archive follows the layered standard FMI-LS-REF {VERSION}. What it holds and what an
-importer can do with it:</p>
-<h2>Experiments</h2>
-<p>Each was run with all FMUs of its scenario coupled. Then this FMU alone was set to the experiment's parameters and fed with
-the inputs that it had got there; the results are those of this second run. An importer does the same: it sets the inputs at the
-beginning of each step and compares the outputs at the communication points. Results agree to {TOLERANCE:g} of each column's
-largest magnitude. A controller takes the step size that is stated, as it is its sample period.</p>
-<table>
-<tr><th>experiment</th><th>what</th><th>time</th><th>inputs</th><th>outputs</th></tr>
-{runs}</table>
-<p><code>exo references {name}.fmu</code> replays them. Inputs that are not named keep their start values. The columns of the files
-are in the units of their variables.</p>
-<h2>Parameter sets</h2>
-<p>As SSP has them (<code>.ssv</code>): the cases of the paper's experiments as this project repeats them, and the presets.</p>
-<table>
-<tr><th>set</th><th>of</th></tr>
-{parameters}</table>
-<h2>Requirements</h2>
-<p><code>{REQUIREMENTS}</code>: what the paper asks for, and the numbers that the whole scenarios are judged by.</p>
-</body>
-</html>
-"""
 
 
 def _xml(root: etree._Element) -> bytes:
