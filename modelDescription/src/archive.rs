@@ -32,6 +32,8 @@ pub struct Contents<'a> {
     pub guide: Guide<'a>,
     /// `model.png`, which importers show on the block.
     pub icon: &'a [u8],
+    /// Other files, by their path in the archive.
+    pub extra: &'a [(String, Vec<u8>)],
 }
 
 impl<'a> Contents<'a> {
@@ -43,6 +45,7 @@ impl<'a> Contents<'a> {
             linked: &[],
             guide: Guide::default(),
             icon: PICTURE,
+            extra: &[],
         }
     }
 }
@@ -77,6 +80,7 @@ pub fn files(contents: &Contents<'_>) -> Vec<(String, Vec<u8>)> {
         linked,
         guide,
         icon,
+        extra,
     } = *contents;
     let name = interface.name;
     let mut files = vec![
@@ -117,6 +121,7 @@ pub fn files(contents: &Contents<'_>) -> Vec<(String, Vec<u8>)> {
             bytes.to_vec(),
         ));
     }
+    files.extend_from_slice(extra);
     files.sort();
     files
 }

@@ -306,11 +306,7 @@ def record_references(
         files = references.contents(archives)
         changed = references.write(files, folder) if bless else references.differences(files, folder)
     for name in changed:
-        said = (
-            "written"
-            if bless
-            else "is not what the FMUs give now: `cargo xtask references --bless`, then read the diff"
-        )
+        said = "written" if bless else "out of date: `cargo xtask references --bless`, then read the diff"
         console.print(f"{folder / name}: {said}", markup=False)
     console.print(f"{len(files)} files, {sum(map(len, files.values())) // 1000} kB", markup=False)
     raise typer.Exit(1 if changed and not bless else 0)

@@ -117,7 +117,7 @@ def print_replay(path: Path, answer: Replay) -> None:
         console.print(f"{path}: nothing to replay", markup=False)
         return
     console.print(f"{path}:", markup=False)
-    found = table("experiment", "output", "unit", "differs by", "allowed", "at [s]", "")
+    found = table("experiment", "output", "unit", "differs by", "allowed", "at, s", "")
     for one in answer.outcomes:
         numbers = (f"{one.difference:.3g}", f"{one.allowed:.3g}", number(one.at))
         add(found, one.experiment, one.output, one.unit, *numbers, "" if one.good else "too much")

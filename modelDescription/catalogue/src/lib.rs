@@ -18,10 +18,12 @@
 //! | [`functions`] | the names that a library exports |
 //! | [`header`] | the C header of the law's library |
 //! | [`laws`] | the README's table of the laws |
+//! | [`extra`] | what else goes into an archive: the references |
 //! | [`request`] | what `cargo xtask` asks for: archives from libraries |
 //!
 //! The program `catalogue` answers `cargo xtask`, which so compiles without any model.
 
+pub mod extra;
 pub mod fmu;
 pub mod functions;
 pub mod header;

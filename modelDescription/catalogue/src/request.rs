@@ -1,6 +1,6 @@
 //! Archives from libraries, as `cargo xtask` asks for them in a file of JSON.
 
-use crate::{Fmu, wiring};
+use crate::{Fmu, extra, wiring};
 use model_description::archive::{self, Binary, Contents};
 use model_description::{Component, Guide, Product, licences, sbom};
 use serde::Deserialize;
@@ -54,17 +54,20 @@ impl Request {
                 bytes,
             })
             .collect();
+        let extra = extra::of(fmu.name)?;
+        let what = fmu.what.to_owned() + extra::told(&extra);
         let contents = Contents {
             interface: &interface,
             binaries: &binaries,
             linked: &self.linked,
             guide: Guide {
-                what: fmu.what,
+                what: &what,
                 picture: fmu.picture,
                 wiring: &wiring::of(fmu.name),
                 system: wiring::system(fmu.name),
             },
             icon: fmu.icon,
+            extra: &extra,
         };
         for (path, bytes) in archive::files(&contents) {
             if let Some(folder) = carried(&self.forbidden, &bytes) {

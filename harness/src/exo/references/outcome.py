@@ -66,9 +66,8 @@ class Replay:
             worst = max(mine, key=lambda one: one.difference / one.allowed)
             most = f"by {worst.difference:.3g} {worst.unit}".rstrip()
             allowed = f"{worst.allowed:.3g} {worst.unit}".rstrip()
-            said.append(
-                f"experiment {name}: {len(mine)} outputs replayed; {worst.output} differs most, {most} of {allowed} allowed"
-            )
+            differs = f"{worst.output} differs most, {most} of {allowed} allowed"
+            said.append(f"experiment {name}: {len(mine)} outputs replayed; {differs}")
         return said
 
 

@@ -28,7 +28,7 @@ class Stimulus:
         self.setter = f"set{integer if task['kind'] == 'Enumeration' else task['kind']}"
 
     def at(self, t: float) -> list[float] | list[int]:
-        """The values at an instant: on a straight line between two samples, or held; before the first sample its values.
+        """The values at an instant: on a straight line between two samples, or held; before the first one its values.
 
         Of several samples at one instant the last one counts.
         """

@@ -10,9 +10,9 @@
 7. `load.py`: the library of this machine, run through one step.
 8. `exo.references`: the experiments that the archive carries, replayed.
 
-Steps 6 and 7 happen in `probe.py`, in a process of its own (`child.py`): a crash is a finding, not an end. Loading runs
-the FMU's machine code with the rights of the caller; `run=False` leaves step 7 and the replaying out. What is extracted lies in a folder
-that goes with the check (`workspace.py`).
+Steps 6 to 8 happen in processes of their own (`child.py` with `probe.py` or the references' `player.py`): a crash is
+a finding, not an end. Loading runs the FMU's machine code with the rights of the caller; `run=False` leaves step 7 and
+the replaying out. What is extracted lies in a folder that goes with the check (`workspace.py`).
 
 Not checked: model exchange (a ModelExchange element is only seen by the schema), FMI 1.0 and 3.0 (refused by
 `xml-version`), source code FMUs beyond the presence of `sources/`, libraries of other machines beyond their file, and
