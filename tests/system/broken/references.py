@@ -89,7 +89,11 @@ TABLES = [
     Mutant("reference-variable", "an output as input", line(INPUT, 1, "time,q,tau_a")),
     Mutant("reference-parameter", "a word", text(PARAMETERS, '"30.0"', '"high"')),
     Mutant("reference-parameter", "infinity", text(PARAMETERS, '"30.0"', '"inf"')),
-    Mutant("reference-parameter", "a fraction of a choice", text(PARAMETERS, '<ssv:Integer value="4"', '<ssv:Real value="4.5"')),
+    Mutant(
+        "reference-parameter",
+        "a fraction of a choice",
+        text(PARAMETERS, '<ssv:Integer value="4"', '<ssv:Real value="4.5"'),
+    ),
     Mutant("reference-parameter", "an output", text(PARAMETERS, 'name="K"', 'name="tau_a"')),
     Mutant("reference-parameter", "no value", text(PARAMETERS, 'value="30.0"', "")),
     Mutant("reference-parameter-unknown", "a misspelt one", text(PARAMETERS, 'name="K_P"', 'name="K_p"')),
@@ -105,7 +109,10 @@ PLAYED = [
     Mutant(
         "reference-result-unstated",
         "another number, no tolerance",
-        both(cell(RESULT, 20, "tau_a", "99"), lambda p: p.entries.update({EXP: p.entries[EXP].replace(b' tolerance="1e-06"', b"")})),
+        both(
+            cell(RESULT, 20, "tau_a", "99"),
+            lambda p: p.entries.update({EXP: p.entries[EXP].replace(b' tolerance="1e-06"', b"")}),
+        ),
     ),
 ]
 REFERENCES = FILES + TABLES + PLAYED

@@ -19,8 +19,6 @@ class Part(Data):
     """What is recorded of one component."""
 
     outputs: Names
-    #: Ticks of the coupled run that the component alone takes as one step.
-    every: Annotated[int, Field(ge=1)] = 1
 
 
 class Run(Data):

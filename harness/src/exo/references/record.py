@@ -14,7 +14,7 @@ from exo import scenario as scenarios
 from exo.errors import ScenarioError, close_matches
 from exo.fmu import Archive, Instance
 from exo.recording import Recording
-from exo.references.recipes import Part, Run
+from exo.references.recipes import Run
 from exo.scenario import PROFILE, Value
 from exo.simulate import Part as Component
 from exo.simulate import Plan, plan, simulate
@@ -91,9 +91,9 @@ def _alone(
     archive = archives[wired.components[component]]
     prefix = f"{component}."
     parameters = {key.removeprefix(prefix): value for key, value in wired.parameters.items() if key.startswith(prefix)}
-    step = wired.step * part.every
-    stimuli = _stimuli(archive, wired, whole, prefix, part)
-    steps = len(whole.time) // part.every
+    step = wired.step
+    stimuli = _stimuli(archive, wired, whole, prefix)
+    steps = len(whole.time)
     results = play(
         archive=archive, parameters=parameters, stimuli=stimuli, step=step, steps=steps, outputs=part.outputs
     )
@@ -114,14 +114,14 @@ def _alone(
     )
 
 
-def _stimuli(archive: Archive, wired: Plan, whole: Recording, prefix: str, part: Part) -> Columns:
+def _stimuli(archive: Archive, wired: Plan, whole: Recording, prefix: str) -> Columns:
     """The inputs that differ from their start value at any time."""
     found = {}
     for key in wired.inputs:
         if not key.startswith(prefix):
             continue
         name = key.removeprefix(prefix)
-        column = rounded(np.asarray(whole[key], dtype=np.float64)[:: part.every], STIMULUS)
+        column = rounded(np.asarray(whole[key], dtype=np.float64), STIMULUS)
         if np.any(column != float(archive.start_value(name, archive.parse(name, archive.variable(name).start))[1])):
             found[name] = column
     return found
