@@ -1,5 +1,5 @@
 /* The smallest FMI 3.0 co-simulation FMU with vectors: y = k u, each of three elements, and n counts the steps. Written
- * against the standard's text, not against this project's exporter; it has the functions that fmpy calls. */
+ * against the standard's text, not against this project's exporter; it does what fmpy calls. */
 #include <stddef.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -71,3 +71,20 @@ int fmi3Terminate(void *own) {
   (void)own;
   return OK;
 }
+
+/* fmpy wants the others to be there, too. */
+#define NONE(name) int fmi3##name(void) { return ERROR; }
+NONE(ActivateModelPartition) NONE(CompletedIntegratorStep) NONE(DeserializeFMUState) NONE(EnterConfigurationMode)
+NONE(EnterContinuousTimeMode) NONE(EnterEventMode) NONE(EnterStepMode) NONE(EvaluateDiscreteStates)
+NONE(ExitConfigurationMode) NONE(FreeFMUState) NONE(GetAdjointDerivative) NONE(GetBinary) NONE(GetBoolean)
+NONE(GetClock) NONE(GetContinuousStateDerivatives) NONE(GetContinuousStates) NONE(GetDirectionalDerivative)
+NONE(GetEventIndicators) NONE(GetFMUState) NONE(GetFloat32) NONE(GetInt16) NONE(GetInt32) NONE(GetInt8)
+NONE(GetIntervalDecimal) NONE(GetIntervalFraction) NONE(GetNominalsOfContinuousStates) NONE(GetNumberOfContinuousStates)
+NONE(GetNumberOfEventIndicators) NONE(GetNumberOfVariableDependencies) NONE(GetOutputDerivatives) NONE(GetShiftDecimal)
+NONE(GetShiftFraction) NONE(GetString) NONE(GetUInt16) NONE(GetUInt32) NONE(GetUInt64) NONE(GetUInt8)
+NONE(GetVariableDependencies) NONE(InstantiateModelExchange) NONE(InstantiateScheduledExecution) NONE(Reset)
+NONE(SerializeFMUState) NONE(SerializedFMUStateSize) NONE(SetBinary) NONE(SetBoolean) NONE(SetClock)
+NONE(SetContinuousStates) NONE(SetDebugLogging) NONE(SetFMUState) NONE(SetFloat32) NONE(SetInt16) NONE(SetInt32)
+NONE(SetInt64) NONE(SetInt8) NONE(SetIntervalDecimal) NONE(SetIntervalFraction) NONE(SetShiftDecimal)
+NONE(SetShiftFraction) NONE(SetString) NONE(SetTime) NONE(SetUInt16) NONE(SetUInt32) NONE(SetUInt64) NONE(SetUInt8)
+NONE(UpdateDiscreteStates)
