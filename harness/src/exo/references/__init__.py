@@ -1,11 +1,11 @@
 """References inside an FMU, as FMI-LS-REF has them: what the FMU should do, for an importer to try.
 
-Reading and replaying, any FMU's (the modules need nothing of the harness but the validator's archive, rules and child):
+Reading and replaying, any FMU's; of the harness they need the validator's archive, child and rules
+(`exo/validate/references.py`) only:
 
 | file | what |
 |---|---|
 | `names.py` | names of the standard |
-| `rules.py` | the rules, which `exo validate` lists |
 | `xml.py` | XML of an archive, read without trusting it |
 | `manifest.py`, `experiments.py` | what there is; what is to be run |
 | `variables.py`, `series.py`, `parameters.py` | columns and parameters as variables of the FMU, also of vectors |

@@ -7,10 +7,10 @@ The draft once had start time, stop time and step size at `Experiment`. Now they
 from dataclasses import dataclass
 from typing import Any
 
-from exo.references import rules
 from exo.references.manifest import resolve
 from exo.references.names import CSV_TYPE, SSV_TYPE
 from exo.references.xml import children, local, located, number, parse
+from exo.validate import references as rules
 from exo.validate.rule import Finding
 
 TRANSIENT = "TransientSimulation"

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 from typing import Any
 from urllib.parse import unquote, urlsplit
 
-from exo.references import rules
 from exo.references.names import CSV_TYPE, DESCRIPTION, FMI_LS, NAME
 from exo.references.xml import children, local, located, parse
+from exo.validate import references as rules
 from exo.validate.rule import Finding
 
 ROLES = (

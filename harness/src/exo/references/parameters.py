@@ -4,9 +4,9 @@ from collections.abc import Mapping
 from typing import Any
 
 from exo.errors import close_matches
-from exo.references import rules
 from exo.references.variables import Place, place, size, starts, unit, value
 from exo.references.xml import children, local, located, parse
+from exo.validate import references as rules
 from exo.validate.rule import Finding
 
 #: Values by variable; of a vector all its elements.

@@ -9,12 +9,13 @@ import fmpy
 import numpy as np
 from numpy.typing import NDArray
 
-from exo.references import experiments, manifest, parameters, rules, series
+from exo.references import experiments, manifest, parameters, series
 from exo.references.experiments import TRANSIENT, Experiment, File
 from exo.references.names import EXPERIMENTS_TYPE, FOLDER, MANIFEST, OLD_EXPERIMENTS_TYPE, SSV_TYPE
 from exo.references.outcome import Outcome, Replay, judge, sampled
 from exo.references.variables import REALS, size, starts
 from exo.validate import child
+from exo.validate import references as rules
 from exo.validate.archive import Contents, open_archive
 from exo.validate.load import host_platforms, missing
 from exo.validate.rule import Finding
@@ -85,10 +86,7 @@ class _Reader:
         compared = {one.references.path for one in played if one.references is not None}
         played += [_default(one) for one in lone if one.path not in compared and self._is_readable(one)]
         tasks = [(one, task) for one in played if (task := self._task(one)) is not None]
-        if stack is None:
-            if tasks:
-                self.answer.skipped.append("experiments of the references: running is not wanted")
-        elif tasks and self._runs():
+        if stack is not None and tasks and self._runs():
             folder = stack.enter_context(workspace())
             self.contents.extract(folder)
             if not (folder / "resources").exists():  # it may be a file

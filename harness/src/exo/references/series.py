@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from exo.errors import close_matches
-from exo.references import rules
 from exo.references.variables import NUMBERS, Place, place, value
+from exo.validate import references as rules
 from exo.validate.rule import Finding
 
 Array = NDArray[np.float64]

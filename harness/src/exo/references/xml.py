@@ -5,7 +5,7 @@ from typing import Any
 
 from lxml import etree
 
-from exo.references.rules import XML
+from exo.validate.references import XML
 from exo.validate.rule import Finding
 
 

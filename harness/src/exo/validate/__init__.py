@@ -28,8 +28,19 @@ from fmpy import read_model_description
 from fmpy.model_description import ValidationError
 
 from exo.errors import FmuError
-from exo.references import replay as references
-from exo.validate import binaries, description, documentation, header, layout, load, naming, structure, units, variables
+from exo.validate import (
+    binaries,
+    description,
+    documentation,
+    header,
+    layout,
+    load,
+    naming,
+    references,  # noqa: F401  its rules are listed, and asked by exo.references
+    structure,
+    units,
+    variables,
+)
 from exo.validate.archive import DESCRIPTION, open_archive
 from exo.validate.rule import RULES, Finding, Severity, error
 from exo.validate.workspace import workspace
@@ -71,6 +82,8 @@ def check(path: Path, *, run: bool = True, platforms: tuple[str, ...] = (), max_
 
     Raises FmuError where there is no file, or no room to extract it.
     """
+    from exo.references.replay import look  # noqa: PLC0415  which needs the archive of this package
+
     _ask_for_file(path)
     with ExitStack() as stack:
         contents, found = open_archive(path, stack)
@@ -103,7 +116,7 @@ def check(path: Path, *, run: bool = True, platforms: tuple[str, ...] = (), max_
             skipped.append(f"loading: {', '.join(sorted(unusable))}")
         else:
             found += load.findings(described, folder, library, skipped)
-        played = references.look(contents, path, run=run and library is not None and not unusable)
+        played = look(contents, path, run=run and library is not None and not unusable)
         skipped += played.skipped
     return Report(path, (*found, *played.findings), tuple(skipped), tuple(played.sentences()))
 

@@ -1,4 +1,4 @@
-"""The rules. What breaks only the draft of the layered standard, and hinders nobody, is a warning."""
+"""The rules of `exo.references`. What breaks only the draft of the standard, and hinders nobody, is a warning."""
 
 from exo.validate.rule import error, warning
 
