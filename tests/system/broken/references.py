@@ -51,7 +51,11 @@ FILES = [
     Mutant("reference-xml", "an entity", text(EXP, "<Experiments", '<!DOCTYPE x [<!ENTITY a "b">]><Experiments')),
     Mutant("reference-xml", "a parameter set that is none", put(PARAMETERS, b"K = 30")),
     Mutant("reference-manifest", "an unknown role", text(MANIFEST, 'role="result"', 'role="results"')),
-    Mutant("reference-manifest", "a purpose that no role has", text(MANIFEST, "experiment/smoke-test", "experiment/unit-test")),
+    Mutant(
+        "reference-manifest",
+        "a purpose that no role has",
+        text(MANIFEST, "experiment/smoke-test", "experiment/unit-test"),
+    ),
     Mutant("reference-manifest", "another standard's", text(MANIFEST, '"org.fmi-standard.fmi-ls-ref"', '"org.other"')),
     Mutant("reference-manifest", "no file", text(MANIFEST, 'source="requirements.md" ', "")),
     Mutant("reference-manifest", "an unknown element", text(MANIFEST, "<Label ", "<Tag ")),
