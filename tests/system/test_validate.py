@@ -18,6 +18,7 @@ from exo.validate.si import meaning, written
 
 from broken.mutants import ARM, MUTANTS, PLAIN, TC, Mutant
 from broken.parts import XML, Parts, plain
+from broken.references import PLAYED, REFERENCES
 
 
 @pytest.fixture(scope="module")
@@ -37,7 +38,7 @@ def test_neither_has_a_good_fmu_that_is_not_ours(tmp_path: Path) -> None:
     assert (report.findings, report.skipped) == ((), ())
 
 
-@pytest.mark.parametrize("mutant", MUTANTS, ids=lambda mutant: mutant.id)
+@pytest.mark.parametrize("mutant", [*MUTANTS, *REFERENCES], ids=lambda mutant: mutant.id)
 def test_one_broken_thing_is_found(
     mutant: Mutant, tmp_path: Path, bases: Mapping[str, Path], monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -47,7 +48,7 @@ def test_one_broken_thing_is_found(
     parts = plain(tmp_path, *mutant.macros) if mutant.base == PLAIN else Parts.of(bases[mutant.base])
     mutant.change(parts)
     path = parts.write(tmp_path)
-    report = check(path, run=mutant.rule.startswith("load-"), **mutant.options)
+    report = check(path, run=mutant.rule.startswith("load-") or mutant in PLAYED, **mutant.options)
     found = {finding.rule for finding in report.findings}
     assert mutant.rule in found, report
     (severity,) = {finding.severity for finding in report.findings if finding.rule == mutant.rule}
@@ -61,7 +62,7 @@ def test_one_broken_thing_is_found(
 
 
 def test_each_rule_has_a_broken_fmu() -> None:
-    assert {mutant.rule for mutant in MUTANTS} == set(RULES)
+    assert {mutant.rule for mutant in (*MUTANTS, *REFERENCES)} == set(RULES)
 
 
 def test_a_library_that_hangs_is_found(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

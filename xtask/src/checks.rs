@@ -8,7 +8,7 @@ use crate::venv::{Packages, Venv, check_machine};
 use std::process::Command;
 
 /// The stages of `cargo xtask test`. Where two may begin, the first one does.
-static TEST: [Stage; 15] = [
+static TEST: [Stage; 16] = [
     stage("fmt", &[], || run(&mut cargo(["fmt", "--all", "--check"]))),
     stage("venv", &[], || Venv::ready(Packages::Test).map(|_| ())),
     // What the archives are written by; what the tests make a stranger's archives with has most in common with it.
@@ -42,6 +42,10 @@ static TEST: [Stage; 15] = [
     }),
     stage("ruff and mypy", &["venv"], python),
     stage("exo validate", &["venv", "fmu"], validate),
+    // What the archives carry is what the FMUs give.
+    stage("references", &["venv", "fmu"], || {
+        run(&mut Venv::ready(Packages::Test)?.exo(["record"]))
+    }),
 ];
 
 /// What `cargo xtask ci` has besides them: see [`dist`].

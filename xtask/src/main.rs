@@ -4,6 +4,7 @@
 //! |---|---|---|
 //! | `cargo xtask fmu` | builds the archives | `target/fmu/*.fmu`, `target/fmu/test/` |
 //! | `cargo xtask ssp` | the coupled systems for other tools | `target/ssp/*.ssp`, `*.fmu` |
+//! | `cargo xtask references` | whether the references in the archives are what the FMUs give; `--bless` records them | `modelDescription/references` |
 //! | `cargo xtask dist` | the archives with the libraries of every platform | `target/dist/*.fmu` |
 //! | `cargo xtask test` | everything that is checked | |
 //! | `cargo xtask ci` | the same, and `dist --check` beside it | |
@@ -67,6 +68,12 @@ enum Command {
     },
     /// Build the FMUs, then the coupled systems into target/ssp
     Ssp,
+    /// Build the FMUs, then record what they carry as references (experiments, results) and say what differs
+    References {
+        /// Rewrite the committed modelDescription/references, so that a change is a diff to read, and pack it
+        #[arg(long)]
+        bless: bool,
+    },
     /// Build the FMUs for every platform that this machine has tools for, into target/dist
     Dist {
         /// Also run the libraries (natively, under wine, under qemu), compare every number, and build one twice
@@ -138,6 +145,7 @@ fn main() -> ExitCode {
     let outcome = match Arguments::parse().command {
         Command::Fmu { bless } => fmu::build_all(bless),
         Command::Ssp => stages::ssp(),
+        Command::References { bless } => stages::references(bless),
         Command::Dist { check } => dist::dist(check),
         Command::Test { keep_going } => checks::test(keep_going),
         Command::Ci { keep_going } => checks::ci(keep_going),

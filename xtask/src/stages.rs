@@ -28,6 +28,21 @@ pub fn ssp() -> Outcome {
     stage("exo ssp", || run(&mut venv.exo(["ssp"])))
 }
 
+/// `cargo xtask references`, `--bless`
+pub fn references(bless: bool) -> Outcome {
+    let venv = harness(Packages::Run)?;
+    let mut record = venv.exo(["record"]);
+    if bless {
+        record.arg("--bless");
+    }
+    stage("exo record", || run(&mut record))?;
+    if bless {
+        // They go into the archives.
+        stage("fmu", || crate::fmu::build_all(false))?;
+    }
+    Ok(())
+}
+
 /// `cargo xtask venv`
 pub fn venv(tests: bool) -> Outcome {
     let packages = if tests { Packages::Test } else { Packages::Run };

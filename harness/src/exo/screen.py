@@ -18,6 +18,7 @@ from rich.text import Text
 from exo.compare import Difference
 from exo.errors import ExoError
 from exo.experiment import Experiment
+from exo.references.outcome import Replay
 from exo.verdict import Result
 
 #: More than any table has.
@@ -104,6 +105,23 @@ def print_table(found: Table) -> None:
 def number(value: float | None) -> str:
     """Six digits; what is undefined says so."""
     return "undefined" if value is None or not math.isfinite(value) else f"{value:.6g}"
+
+
+def print_replay(path: Path, answer: Replay) -> None:
+    """What is wrong, then by how much each output differs."""
+    for finding in answer.findings:
+        console.print(f"{path}: {finding}", markup=False)
+    for sentence in answer.skipped:
+        console.print(f"{path}: not checked: {sentence}", markup=False)
+    if not answer.outcomes:
+        console.print(f"{path}: nothing to replay", markup=False)
+        return
+    console.print(f"{path}:", markup=False)
+    found = table("experiment", "output", "unit", "differs by", "allowed", "at, s", "")
+    for one in answer.outcomes:
+        numbers = (f"{one.difference:.3g}", f"{one.allowed:.3g}", number(one.at))
+        add(found, one.experiment, one.output, one.unit, *numbers, "" if one.good else "too much")
+    print_table(found)
 
 
 def print_run(

@@ -19,10 +19,12 @@
 //! | [`header`] | the C header of the law's library |
 //! | [`laws`] | the README's table of the laws |
 //! | [`package`] | whose they are: version, copyright, licence |
+//! | [`extra`] | what else goes into an archive: the references |
 //! | [`request`] | what `cargo xtask` asks for: archives from libraries |
 //!
 //! The program `catalogue` answers `cargo xtask`, which so compiles without any model.
 
+pub mod extra;
 pub mod fmu;
 pub mod header;
 pub mod laws;

@@ -1,6 +1,6 @@
 //! Archives from libraries, as `cargo xtask` asks for them in a file of JSON.
 
-use crate::{Fmu, PACKAGE, terminals, wiring};
+use crate::{Fmu, PACKAGE, extra, terminals, wiring};
 use cargo_fmu::pack::{Parts, carried};
 use fmu_archive::archive::Contents;
 use fmu_archive::{Component, Guide, Product, licences, sbom};
@@ -26,16 +26,19 @@ impl Request {
         let interface = fmu
             .interface()
             .map_err(|error| format!("declaration of {}: {error}", fmu.name))?;
+        let extra = extra::of(fmu.name)?;
+        let what = fmu.what.to_owned() + extra::told(&extra);
         self.parts.archives(&Contents {
             package: PACKAGE,
             guide: Guide {
-                what: fmu.what,
+                what: &what,
                 picture: fmu.picture,
                 wiring: &wiring::of(fmu.name),
                 system: wiring::system(fmu.name),
             },
             icon: fmu.icon,
             terminals: &terminals::of(fmu.name),
+            extra: &extra,
             ..Contents::of(&interface)
         })
     }

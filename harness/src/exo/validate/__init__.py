@@ -8,10 +8,11 @@
 5. `layout.py`, `documentation.py`: folders, dead links.
 6. `binaries.py`: format, exports and needs of every platform's library (parsed by LIEF, not run).
 7. `load.py`: the library of this machine, run through one step.
+8. `exo.references`: the experiments that the archive carries, replayed.
 
-Steps 6 and 7 happen in `probe.py`, in a process of its own (`child.py`): a crash is a finding, not an end. Loading runs
-the FMU's machine code with the rights of the caller; `run=False` leaves step 7 out. What is extracted lies in a folder
-that goes with the check (`workspace.py`).
+Steps 6 to 8 happen in processes of their own (`child.py` with `probe.py` or the references' `player.py`): a crash is
+a finding, not an end. Loading runs the FMU's machine code with the rights of the caller; `run=False` leaves step 7 and
+the replaying out. What is extracted lies in a folder that goes with the check (`workspace.py`).
 
 Not checked: model exchange (a ModelExchange element is only seen by the schema), FMI 1.0 and 3.0 (refused by
 `xml-version`), source code FMUs beyond the presence of `sources/`, libraries of other machines beyond their file, and
@@ -27,7 +28,19 @@ from fmpy import read_model_description
 from fmpy.model_description import ValidationError
 
 from exo.errors import FmuError
-from exo.validate import binaries, description, documentation, header, layout, load, naming, structure, units, variables
+from exo.validate import (
+    binaries,
+    description,
+    documentation,
+    header,
+    layout,
+    load,
+    naming,
+    references,  # noqa: F401  its rules are listed, and asked by exo.references
+    structure,
+    units,
+    variables,
+)
 from exo.validate.archive import DESCRIPTION, open_archive
 from exo.validate.rule import RULES, Finding, Severity, error
 from exo.validate.workspace import workspace
@@ -45,15 +58,23 @@ class Report:
     findings: tuple[Finding, ...]
     #: Sentences: steps that were left out, and why.
     skipped: tuple[str, ...]
+    #: Sentences: by how much the outputs of each experiment that was replayed differ from its reference results.
+    replayed: tuple[str, ...] = ()
 
     def failed(self, *, strict: bool = False) -> bool:
         """Whether there is an error; if strict, a warning suffices."""
         return any(strict or finding.severity is Severity.ERROR for finding in self.findings)
 
     def as_json(self, *, strict: bool = False) -> dict[str, Any]:
-        """For other programs: `fmu`, `failed`, `findings` (rule, severity, where, value, expected), `skipped`."""
-        found = [asdict(finding) for finding in self.findings]
-        return {"fmu": str(self.path), "failed": self.failed(strict=strict), "findings": found, "skipped": self.skipped}
+        """For other programs: `fmu`, `failed`, `findings` (rule, severity, where, value, expected), `skipped`,
+        `replayed`."""
+        return {
+            "fmu": str(self.path),
+            "failed": self.failed(strict=strict),
+            "findings": [asdict(finding) for finding in self.findings],
+            "skipped": self.skipped,
+            "replayed": self.replayed,
+        }
 
 
 def check(path: Path, *, run: bool = True, platforms: tuple[str, ...] = (), max_glibc: str | None = None) -> Report:
@@ -61,6 +82,8 @@ def check(path: Path, *, run: bool = True, platforms: tuple[str, ...] = (), max_
 
     Raises FmuError where there is no file, or no room to extract it.
     """
+    from exo.references.replay import look  # noqa: PLC0415  which needs the archive of this package
+
     _ask_for_file(path)
     with ExitStack() as stack:
         contents, found = open_archive(path, stack)
@@ -93,7 +116,9 @@ def check(path: Path, *, run: bool = True, platforms: tuple[str, ...] = (), max_
             skipped.append(f"loading: {', '.join(sorted(unusable))}")
         else:
             found += load.findings(described, folder, library, skipped)
-    return Report(path, tuple(found), tuple(skipped))
+        played = look(contents, path, run=run and library is not None and not unusable)
+        skipped += played.skipped
+    return Report(path, (*found, *played.findings), tuple(skipped), tuple(played.sentences()))
 
 
 def problems(path: Path) -> list[str]:

@@ -71,12 +71,12 @@ class _Streams(Thread):
         return f"{kept}\n(cut after {OUTPUT_LIMIT} bytes)" if self.cut else kept
 
 
-def run(task: dict[str, Any]) -> Answer:
-    """Runs `probe.py` on the task; no process and no file of it is left."""
+def run(task: dict[str, Any], program: Path = PROBE) -> Answer:
+    """Runs `probe.py`, or another program like it, on the task; no process and no file of it is left."""
     with workspace() as folder:
         facts = folder / "facts.jsonl"
         process = subprocess.Popen(
-            [sys.executable, "-X", "utf8", "-P", str(PROBE), str(facts)],
+            [sys.executable, "-X", "utf8", "-P", str(program), str(facts)],
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT,
