@@ -218,12 +218,14 @@ def write_ssp(
             "--set", help="Parameter set that the SSP archives bind, as wall-standard_10_0.5; may be repeated."
         ),
     ] = None,
-    inline: Annotated[bool, typer.Option("--inline", help="Parameter values inside the descriptions, no files.")] = False,
+    inline: Annotated[
+        bool, typer.Option("--inline", help="Parameter values inside the descriptions, no files.")
+    ] = False,
     fmi3_dir: Annotated[
         Path | None, typer.Option("--fmi3-dir", help="Folder of FMI 3.0 archives; else fmi3 in that of the others.")
     ] = None,
 ) -> None:
-    """Writes the coupled systems: SSP 1.0 and, in ssp2, SSP 2.0 with a variant for each parameter set; and containers."""
+    """Writes the coupled systems: SSP 1.0; in ssp2 SSP 2.0, with a variant for each parameter set; containers."""
     with sentences(), ExitStack() as stack:
         folder = find_fmu_dir(fmu_dir)
         defaults = systems.defaults(bound or ())

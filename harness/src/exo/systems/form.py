@@ -56,7 +56,9 @@ class Form:
 SSP_1 = Form()
 
 
-def forms(out: Path, files: Iterable[str], *, twins: Path | None, default_twins: Path, inline: bool) -> dict[Path, Form]:
+def forms(
+    out: Path, files: Iterable[str], *, twins: Path | None, default_twins: Path, inline: bool
+) -> dict[Path, Form]:
     """The forms that `exo ssp` writes, by folder: SSP 1.0 in `out`, SSP 2.0 in `ssp2`, and in `ssp2/fmi3` that with the
     FMI 3.0 archives of `twins`. Without `twins` those of `default_twins` serve, where all `files` are there."""
     found = {out: Form(inline=inline), out / "ssp2": Form(version="2.0", inline=inline, variants=True)}

@@ -29,7 +29,7 @@ MAX_ELEMENTS = 1 << 24
 
 @dataclass(frozen=True, kw_only=True)
 class Unit:
-    """1 unit = factor × product of base units + offset; `exponents` in the order of `BASE`, None where none are given."""
+    """1 unit = factor × product of base units + offset; exponents in the order of `BASE`, None where none are given."""
 
     name: str
     exponents: tuple[int, ...] | None
@@ -82,7 +82,7 @@ class Interface:
     implementations: frozenset[str]
 
     def element(self, name: str) -> tuple[Variable, tuple[int, ...]]:
-        """The variable of this name, or the array and the indices (from 1) of the element `array[i,j]`; else FmuError."""
+        """The variable of this name, or array and indices, from 1, of an element `array[i,j]`; else FmuError."""
         if name in self.variables:
             return self.variables[name], ()
         match = ELEMENT.fullmatch(name)
@@ -169,9 +169,7 @@ def _typed(root: Any) -> dict[str, Variable]:
     sizes = {element.get("valueReference"): element.get("start") for element in elements}
     found = {}
     for element in elements:
-        dimensions = [
-            one.get("start") or sizes.get(one.get("valueReference")) for one in element.iterfind("Dimension")
-        ]
+        dimensions = [one.get("start") or sizes.get(one.get("valueReference")) for one in element.iterfind("Dimension")]
         shape = tuple(_integer(text) or 0 for text in dimensions)
         if not 0 <= prod(shape) <= MAX_ELEMENTS:
             shape = (0,)
@@ -186,7 +184,8 @@ def _typed(root: Any) -> dict[str, Variable]:
 def _variable(element: Any, kind: Any, declared: Any, type_name: str, shape: tuple[int, ...] = ()) -> Variable:
     def given(key: str) -> str | None:
         own = kind.get(key)
-        return own if own is not None or declared is None else declared.get(key)
+        text = own if own is not None or declared is None else declared.get(key)
+        return None if text is None else str(text)
 
     causality = element.get("causality", "local")
     text = kind.get("start")

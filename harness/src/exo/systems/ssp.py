@@ -28,7 +28,7 @@ from typing import Any
 from lxml import etree
 
 from exo.fmu import Archive
-from exo.systems.document import SSC, SSD, SSV, TOOL, TYPES, TYPES_3, dimensions, text, write_units
+from exo.systems.document import SSC, SSD, SSV, TOOL, TYPES, dimensions, text, write_units
 from exo.systems.form import SSP_1, Form, Part, parts
 from exo.systems.interface import Unit, Variable
 from exo.systems.ssv import element as parameter_element
@@ -115,14 +115,14 @@ def description(*, system: System, archives: Mapping[str, Archive], form: Form =
     for name, targets in system.inputs.items():
         component, variable = targets[0].split(".", 1)
         part = archived[system.components[component]]
-        _connector(connectors, name, "input", part.element(variable)[0], part, units)
+        _connector(connectors, name, "input", of=(part, part.element(variable)[0]), units=units)
     if system.inputs:
         _bind(top, system, archived, None, form)
     elements = _ssd(top, "Elements")
     wired = [*system.connections, *(target for targets in system.inputs.values() for target in targets)]
     for name, file in system.components.items():
         inputs = [w.split(".", 1)[1] for w in wired if w.startswith(f"{name}.")]
-        component = _component(elements, name, file, archived[file], inputs, units)
+        component = _component(elements, name=name, file=file, part=archived[file], inputs=inputs, units=units)
         if not system.inputs:
             _bind(component, system, archived, name, form)
         if form.version != "1.0":
@@ -148,9 +148,7 @@ def _bind(parent: Any, system: System, archived: Mapping[str, Part], component: 
         binding.set("source", resource(system.default, component))
 
 
-def _component(
-    parent: Any, name: str, file: str, part: Part, inputs: list[str], units: dict[str, Unit]
-) -> Any:
+def _component(parent: Any, *, name: str, file: str, part: Part, inputs: list[str], units: dict[str, Unit]) -> Any:
     component = _ssd(
         parent,
         "Component",
@@ -163,27 +161,33 @@ def _component(
     archive = part.archive
     outputs = [name for name in archive.names("output") if archive.variable(name).type in TYPES]
     for variable in part.variables([*sorted(inputs, key=list(archive.variables).index), *outputs]):
-        _connector(connectors, variable.name, variable.causality, variable, part, units)
+        _connector(connectors, variable.name, variable.causality, of=(part, variable), units=units)
     return component
 
 
 def _documentation(component: Any) -> None:
     """Where the interface document lies: in the FMU."""
-    attributes = {"kind": "general", "type": "text/html", "source": "documentation/index.html", "sourceBase": "resource"}
+    attributes = {
+        "kind": "general",
+        "type": "text/html",
+        "source": "documentation/index.html",
+        "sourceBase": "resource",
+    }
     etree.SubElement(component, f"{{{SSC}}}MetaData", attrib=attributes)
 
 
-def _connector(parent: Any, name: str, kind: str, variable: Variable, part: Part, units: dict[str, Unit]) -> None:
+def _connector(parent: Any, name: str, kind: str, *, of: tuple[Part, Variable], units: dict[str, Unit]) -> None:
+    part, variable = of
     connector = _ssd(parent, "Connector", name=name, kind=kind)
-    of = etree.SubElement(connector, f"{{{SSC}}}{variable.type}")
+    kind_of = etree.SubElement(connector, f"{{{SSC}}}{variable.type}")
     if variable.unit:
-        of.set("unit", variable.unit)
+        kind_of.set("unit", variable.unit)
         units[variable.unit] = part.interface.units[variable.unit]
     dimensions(connector, variable)
 
 
 def _wires(system: System, archived: Mapping[str, Part]) -> Iterator[tuple[dict[str, str], dict[str, str]]]:
-    """Start and end of each connection, as attributes; a vector that goes to a vector of its shape is one connection."""
+    """Start and end of each connection, as attributes; a vector that goes to one of its shape is one connection."""
     wires = [(source, target) for source, targets in system.inputs.items() for target in targets]
     wires += [(origin, target) for target, origin in system.connections.items()]
     groups: dict[tuple[str, str, str, str], list[tuple[tuple[int, ...], tuple[int, ...]]]] = {}
@@ -201,15 +205,17 @@ def _wires(system: System, archived: Mapping[str, Part]) -> Iterator[tuple[dict[
         (start, of_start), (stop, of_stop) = end(source), end(target)
         groups.setdefault((*start, *stop), []).append((of_start, of_stop))
     for (element, connector, component, variable), pairs in groups.items():
-        start = ({"startElement": element} if element else {}) | {"startConnector": connector}
-        stop = {"endElement": component, "endConnector": variable}
+        from_there = ({"startElement": element} if element else {}) | {"startConnector": connector}
+        to_there = {"endElement": component, "endConnector": variable}
         shape = shapes.get((element, connector), ())
         every = list(product(*(range(1, size + 1) for size in shape)))
         whole = shape == shapes[component, variable] and sorted(pairs) == [(one, one) for one in every]
-        for of_start, of_stop in [((), ())] if whole else pairs:
-            from_element = {"startIndices": " ".join(map(str, of_start))} if of_start else {}
-            to_element = {"endIndices": " ".join(map(str, of_stop))} if of_stop else {}
-            yield start | from_element, stop | to_element
+        for one, other in [((), ())] if whole else pairs:
+            yield from_there | _indices("start", one), to_there | _indices("end", other)
+
+
+def _indices(side: str, indices: tuple[int, ...]) -> dict[str, str]:
+    return {f"{side}Indices": " ".join(map(str, indices))} if indices else {}
 
 
 def _master(parent: Any, step: float) -> None:

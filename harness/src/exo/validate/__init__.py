@@ -20,6 +20,7 @@ behaviour beyond one step. Rules: `rule.py`; each is listed in docs/validate.md 
 
 from contextlib import ExitStack
 from dataclasses import asdict, dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -27,7 +28,19 @@ from fmpy import read_model_description
 from fmpy.model_description import ValidationError
 
 from exo.errors import FmuError
-from exo.validate import binaries, description, documentation, header, layout, load, naming, structure, units, variables
+from exo.validate import (
+    binaries,
+    description,
+    documentation,
+    header,
+    layout,
+    load,
+    naming,
+    ssp,
+    structure,
+    units,
+    variables,
+)
 from exo.validate.archive import DESCRIPTION, open_archive
 from exo.validate.rule import RULES, Finding, Severity, error
 from exo.validate.workspace import workspace
@@ -62,6 +75,10 @@ def check(path: Path, *, run: bool = True, platforms: tuple[str, ...] = (), max_
     Raises FmuError where there is no file, or no room to extract it.
     """
     _ask_for_file(path)
+    if path.suffix == ".ssp":
+        inside = partial(check, run=run, platforms=platforms, max_glibc=max_glibc)
+        of_system, left_out = ssp.findings(path, inside)
+        return Report(path, tuple(of_system), tuple(left_out))
     with ExitStack() as stack:
         contents, found = open_archive(path, stack)
         if contents is None:
