@@ -331,7 +331,7 @@ def identify_tool(
 
 def _print_rules() -> None:
     table = screen.table("rule", "severity", "holds when")
-    for rule in validate.RULES.values():
+    for rule in (*validate.RULES.values(), *validate.ssp.RULES.values()):
         screen.add(table, rule.id, rule.severity, rule.text)
     screen.print_table(table)
 

@@ -54,6 +54,7 @@ class Form:
 
 
 SSP_1 = Form()
+SSP_2 = Form(version="2.0", variants=True)
 
 
 def forms(

@@ -36,11 +36,13 @@ ALLOWED: dict[tuple[str, str], dict[str, tuple[str, ...]]] = {
 
 #: Where a connection ends: owner (empty for the system), connector, indices.
 Place = tuple[str, str, str]
+#: Connectors that have a source: owner and connector → indices → where.
+Taken = dict[tuple[str, str], dict[str, str]]
 
 
 def findings(document: Document, system: Element, valued: set[tuple[str, str]]) -> Iterator[Finding]:
     """All of this module's rules, in one system; `valued` are the inputs that a binding gives a value."""
-    taken: dict[Place, str] = {}
+    taken: Taken = {}
     driven: set[tuple[str, str]] = set()
     for node in document.all("ssd:Connections/ssd:Connection", system.node):
         names = _end(node, "start"), _end(node, "end")
@@ -88,7 +90,7 @@ def _expected(system: Element, place: Place) -> str:
 
 
 def _joined(
-    where: str, names: tuple[Place, Place], ends: tuple[Connector, Connector], taken: dict[Place, str]
+    where: str, names: tuple[Place, Place], ends: tuple[Connector, Connector], taken: Taken
 ) -> Iterator[Finding]:
     kinds = [("element" if name[0] else "system", end.kind) for name, end in zip(names, ends, strict=True)]
     if any(end.kind == "unspecified" or end.type == "Clock" for end in ends):
@@ -98,9 +100,16 @@ def _joined(
         value = f"{kinds[0][0]}'s {kinds[0][1]} and {kinds[1][0]}'s {kinds[1][1]}"
         yield KIND.at(where, value, "kinds that the standard lets join")
         return
+    if onward == back:
+        return
     target = names[1] if onward else names[0]
-    if onward != back and (other := taken.setdefault(target, where)) != where:
+    indices = " ".join(target[2].split())
+    others = taken.setdefault(target[:2], {})
+    # A source of the whole is one of each element, too.
+    other = next(iter(others.values()), None) if not indices else others.get(indices) or others.get("")
+    if other is not None:
         yield TWICE.at(where, f"{_shown(target)} has a source: {other}", "one source")
+    others[indices] = where
 
 
 def _allowed(source: tuple[str, str], target: tuple[str, str]) -> bool:

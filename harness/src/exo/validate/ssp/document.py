@@ -32,6 +32,8 @@ ROOTS = {
     ".ssm": (SSM, "ParameterMapping"),
     ".ssb": (SSB, "SignalDictionary"),
 }
+#: What may name a unit or an enumeration.
+USERS = ("Real", "Float64", "Float32", "Enumeration")
 SCHEMAS = {
     SSD: "SystemStructureDescription.xsd",
     SSV: "SystemStructureParameterValues.xsd",
@@ -103,13 +105,24 @@ def judged(document: Document) -> Iterator[Finding]:
                     f"{document.file}:{entry.line}", message, f"what the schema of {document.version} allows"
                 )
     enumerations = {one.get("name") for one in root.iterfind("{*}Enumerations/{*}Enumeration")}
-    for element in root.iter("{*}Real", "{*}Float64", "{*}Float32", "{*}Enumeration"):
+    for element in _own(root):
         unit = element.get("unit")
         if unit and unit not in document.units:
             yield UNIT.at(document.place(element, f"in {_owner(element)}"), unit, "a unit of Units")
         if _names_enumeration(element) and element.get("name") not in enumerations:
             value = element.get("name")
             yield ENUMERATION.at(document.place(element, f"in {_owner(element)}"), value, "one of Enumerations")
+
+
+def _own(root: Any) -> Iterator[Any]:
+    """Types with units and enumerations, without those of documents that stand in this one."""
+    inner = {f"{{{namespace}}}{name}" for namespace, name in ROOTS.values()}
+    waiting = [root]
+    while waiting:
+        element = waiting.pop()
+        if isinstance(element.tag, str) and etree.QName(element).localname in USERS:
+            yield element
+        waiting += [child for child in reversed(element) if child.tag not in inner]
 
 
 def _names_enumeration(element: Any) -> bool:
