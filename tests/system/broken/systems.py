@@ -271,7 +271,7 @@ MUTANTS = (
     Mutant("ssp-component-fmu", _add(MASS, b"no archive"), "Component plant", "resources/Plant.fmu: it is no FMU"),
     Mutant(
         "ssp-component-system",
-        in_default(DRIVE, DRIVE.replace("source", 'type="application/x-ssp-definition" source')),
+        in_default(DRIVE, DRIVE.replace(" source", ' type="application/x-ssp-definition" source')),
         "Component drive",
         "resources/Drive.fmu",
     ),

@@ -1,6 +1,6 @@
 """What the XML files of an SSP archive share: namespaces, elements, units."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 from lxml import etree
@@ -13,9 +13,8 @@ SSV = "http://ssp-standard.org/SSP1/SystemStructureParameterValues"
 SSM = "http://ssp-standard.org/SSP1/SystemStructureParameterMapping"
 SSB = "http://ssp-standard.org/SSP1/SystemStructureSignalDictionary"
 TOOL = "exo"
-#: Types that the systems are made of, in FMI 2.0 and 3.0.
+#: Types that the systems are made of, in FMI 2.0.
 TYPES = ("Real", "Integer", "Boolean")
-TYPES_3 = ("Float64", "Float32", "Int8", "UInt8", "Int16", "UInt16", "Int32", "UInt32", "Int64", "UInt64", "Boolean")
 
 
 def dimensions(parent: Any, variable: Variable) -> None:
@@ -35,6 +34,14 @@ def write_units(parent: Any, units: Iterable[Unit]) -> None:
             base.set("factor", repr(unit.factor))
         if unit.offset != 0.0:
             base.set("offset", repr(unit.offset))
+
+
+def write_enumerations(parent: Any, variables: Mapping[str, Variable]) -> None:
+    """The children of `Enumerations`: declared types by name, each as a variable of it has it."""
+    for name, variable in sorted(variables.items()):
+        enumeration = etree.SubElement(parent, f"{{{SSC}}}Enumeration", name=name)
+        for item, value in (variable.items or {}).items():
+            etree.SubElement(enumeration, f"{{{SSC}}}Item", name=item, value=str(value))
 
 
 def text(root: Any) -> bytes:

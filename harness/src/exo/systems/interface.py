@@ -21,7 +21,7 @@ SCALARS = ("Real", "Integer", "Boolean", "String", "Enumeration")
 FLOATS = ("Float64", "Float32")
 INTEGERS = ("Int8", "UInt8", "Int16", "UInt16", "Int32", "UInt32", "Int64", "UInt64")
 TYPED = (*FLOATS, *INTEGERS, "Boolean", "String", "Binary", "Enumeration", "Clock")
-ELEMENT = re.compile(r"(?P<array>.+)\[(?P<index>[0-9]{1,9}(?:,[0-9]{1,9})*)\]")
+INDICES = re.compile(r"\[([0-9]{1,9}(?:,[0-9]{1,9})*)\]")
 IMPLEMENTATIONS = ("CoSimulation", "ModelExchange", "ScheduledExecution")
 #: More elements than any variable of a real FMU has.
 MAX_ELEMENTS = 1 << 24
@@ -53,7 +53,8 @@ class Variable:
     start: tuple[str, ...] = ()
     minimum: float | None = None
     maximum: float | None = None
-    #: Value of each item of an enumeration.
+    #: The declared type of an enumeration, and the value of each of its items.
+    enumeration: str = ""
     items: Mapping[str, int] | None = None
 
     @property
@@ -82,14 +83,16 @@ class Interface:
     implementations: frozenset[str]
 
     def element(self, name: str) -> tuple[Variable, tuple[int, ...]]:
-        """The variable of this name, or array and indices, from 1, of an element `array[i,j]`; else FmuError."""
+        """The variable of this name, or array and indices, from 1, of an element; else FmuError.
+
+        Elements are called as in FMI 2.0: `q[2]` of the array `q`, `segment[2].t_on` of the array `segment.t_on`.
+        """
         if name in self.variables:
             return self.variables[name], ()
-        match = ELEMENT.fullmatch(name)
-        array = self.variables.get(match["array"]) if match else None
-        if match is None or array is None:
+        array = self.variables.get(INDICES.sub("", name))
+        if array is None:
             raise FmuError(f"no variable {name}{close_matches(name, self.variables)}")
-        indices = tuple(map(int, match["index"].split(",")))
+        indices = tuple(int(index) for found in INDICES.findall(name) for index in found.split(","))
         inside = len(indices) == len(array.shape) and all(
             1 <= index <= size for index, size in zip(indices, array.shape, strict=True)
         )
@@ -211,6 +214,7 @@ def _variable(element: Any, kind: Any, declared: Any, type_name: str, shape: tup
         start=start,
         minimum=_number(given("min")),
         maximum=_number(given("max")),
+        enumeration=kind.get("declaredType", "") if type_name == "Enumeration" else "",
         items=items,
     )
 

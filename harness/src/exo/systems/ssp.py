@@ -19,7 +19,7 @@
 
 import zipfile
 from collections.abc import Iterator, Mapping
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
 from io import BytesIO
 from itertools import product
 from pathlib import Path
@@ -28,7 +28,7 @@ from typing import Any
 from lxml import etree
 
 from exo.fmu import Archive
-from exo.systems.document import SSC, SSD, SSV, TOOL, TYPES, dimensions, text, write_units
+from exo.systems.document import SSC, SSD, SSV, TOOL, TYPES, dimensions, text, write_enumerations, write_units
 from exo.systems.form import SSP_1, Form, Part, parts
 from exo.systems.interface import Unit, Variable
 from exo.systems.ssv import element as parameter_element
@@ -46,6 +46,15 @@ RECORDING = {"loggingInterval": "0.0", "bufferSize": "10", "signalFilter": ""}
 LICENCE = "MIT OR Apache-2.0"
 
 
+@dataclass
+class Used:
+    """What connectors use of what the document must define."""
+
+    units: dict[str, Unit] = field(default_factory=dict)
+    #: By name, one variable of each.
+    enumerations: dict[str, Variable] = field(default_factory=dict)
+
+
 def write(*, system: System, archives: Mapping[str, Archive], folder: Path, form: Form = SSP_1) -> Path:
     """Writes `<folder>/<system>.ssp`; `archives` are FMUs by archive name."""
     path = folder / f"{system.name}.ssp"
@@ -56,18 +65,19 @@ def write(*, system: System, archives: Mapping[str, Archive], folder: Path, form
 
 def content(*, system: System, archives: Mapping[str, Archive], form: Form = SSP_1) -> bytes:
     """The archive's bytes."""
-    files = {DEFAULT: description(system=system, archives=archives, form=form)}
+    archived = parts(archives, form)
+    files = {DEFAULT: _described(system, archived, form)}
     if form.variants:
         for name in system.parameter_sets:
             if name != system.default:
-                files[f"{name}.ssd"] = description(system=variant(system, name), archives=archives, form=form)
+                files[f"{name}.ssd"] = _described(variant(system, name), archived, form)
     if not form.inline:
         for name in system.parameter_sets:
             for component in bound_at(system):
-                files[resource(name, component)] = parameter_set(
-                    system=system, archives=archives, name=name, component=component, form=form
+                files[resource(name, component)] = text(
+                    parameter_element(system=system, archived=archived, name=name, component=component, form=form)
                 )
-    for file, part in sorted(parts(archives, form).items()):
+    for file, part in sorted(archived.items()):
         if file in system.components.values():
             files[f"resources/{file}"] = part.path.read_bytes()
     buffer = BytesIO()
@@ -98,7 +108,10 @@ def resource(parameter_set_name: str, component: str | None = None) -> str:
 
 def description(*, system: System, archives: Mapping[str, Archive], form: Form = SSP_1) -> bytes:
     """`SystemStructure.ssd`, or a variant."""
-    archived = parts(archives, form)
+    return _described(system, parts(archives, form), form)
+
+
+def _described(system: System, archived: Mapping[str, Part], form: Form) -> bytes:
     prefixes = {"ssd": SSD, "ssc": SSC, "oms": OMS}
     # libcosim and Ecos look for elements by their prefix.
     root = etree.Element(
@@ -110,19 +123,19 @@ def description(*, system: System, archives: Mapping[str, Archive], form: Form =
         root.set("license", LICENCE)
     root.set("generationTool", TOOL)
     top = _ssd(root, "System", name=system.name, description=system.title)
-    units: dict[str, Unit] = {}
+    used = Used()
     connectors = _ssd(top, "Connectors") if system.inputs else None
     for name, targets in system.inputs.items():
         component, variable = targets[0].split(".", 1)
         part = archived[system.components[component]]
-        _connector(connectors, name, "input", of=(part, part.element(variable)[0]), units=units)
+        _connector(connectors, name, "input", of=(part, part.element(variable)[0]), used=used)
     if system.inputs:
         _bind(top, system, archived, None, form)
     elements = _ssd(top, "Elements")
     wired = [*system.connections, *(target for targets in system.inputs.values() for target in targets)]
     for name, file in system.components.items():
         inputs = [w.split(".", 1)[1] for w in wired if w.startswith(f"{name}.")]
-        component = _component(elements, name=name, file=file, part=archived[file], inputs=inputs, units=units)
+        component = _component(elements, name=name, file=file, part=archived[file], inputs=inputs, used=used)
         if not system.inputs:
             _bind(component, system, archived, name, form)
         if form.version != "1.0":
@@ -131,7 +144,9 @@ def description(*, system: System, archives: Mapping[str, Archive], form: Form =
     for start, end in _wires(system, archived):
         _ssd(connections, "Connection", **start, **end)
     _master(top, system.step)
-    write_units(etree.SubElement(root, f"{{{SSD}}}Units"), units.values())
+    if used.enumerations:
+        write_enumerations(_ssd(root, "Enumerations"), used.enumerations)
+    write_units(_ssd(root, "Units"), used.units.values())
     experiment = _ssd(root, "DefaultExperiment", startTime="0.0", stopTime=repr(system.duration))
     _omsimulator(experiment, RECORDING | {"resultFile": f"{system.variant or system.name}_res.csv"})
     return text(root)
@@ -148,7 +163,7 @@ def _bind(parent: Any, system: System, archived: Mapping[str, Part], component: 
         binding.set("source", resource(system.default, component))
 
 
-def _component(parent: Any, *, name: str, file: str, part: Part, inputs: list[str], units: dict[str, Unit]) -> Any:
+def _component(parent: Any, *, name: str, file: str, part: Part, inputs: list[str], used: "Used") -> Any:
     component = _ssd(
         parent,
         "Component",
@@ -161,7 +176,7 @@ def _component(parent: Any, *, name: str, file: str, part: Part, inputs: list[st
     archive = part.archive
     outputs = [name for name in archive.names("output") if archive.variable(name).type in TYPES]
     for variable in part.variables([*sorted(inputs, key=list(archive.variables).index), *outputs]):
-        _connector(connectors, variable.name, variable.causality, of=(part, variable), units=units)
+        _connector(connectors, variable.name, variable.causality, of=(part, variable), used=used)
     return component
 
 
@@ -176,13 +191,16 @@ def _documentation(component: Any) -> None:
     etree.SubElement(component, f"{{{SSC}}}MetaData", attrib=attributes)
 
 
-def _connector(parent: Any, name: str, kind: str, *, of: tuple[Part, Variable], units: dict[str, Unit]) -> None:
+def _connector(parent: Any, name: str, kind: str, *, of: tuple[Part, Variable], used: "Used") -> None:
     part, variable = of
     connector = _ssd(parent, "Connector", name=name, kind=kind)
     kind_of = etree.SubElement(connector, f"{{{SSC}}}{variable.type}")
     if variable.unit:
         kind_of.set("unit", variable.unit)
-        units[variable.unit] = part.interface.units[variable.unit]
+        used.units[variable.unit] = part.interface.units[variable.unit]
+    if variable.type == "Enumeration":
+        kind_of.set("name", variable.enumeration)
+        used.enumerations[variable.enumeration] = variable
     dimensions(connector, variable)
 
 

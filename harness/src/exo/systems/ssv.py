@@ -65,7 +65,12 @@ def _grouped(
             continue
         if len(variable.start) != variable.count:
             raise FmuError(f"{archive.path}: {variable.name}: {len(variable.start)} start values for {variable.count}")
-        _, values = found.setdefault(shown, (variable, list(variable.start)))
+        if shown not in found:
+            found[shown] = (
+                variable,
+                [_item(archive, variable, int(one)) if variable.items else one for one in variable.start],
+            )
+        _, values = found[shown]
         values[position(variable.shape, indices)] = written
     return found
 
@@ -79,17 +84,25 @@ def _written(part: Part, name: str, variable: Variable, value: Value) -> str:
     if variable.type == "Boolean":
         return "true" if number else "false"
     if variable.type == "Enumeration":
-        for item, of_item in (variable.items or {}).items():
-            if of_item == number:
-                return item
-        raise FmuError(f"{part.path}: {name}: no item has the value {number}")
+        return _item(part, variable, int(number))
     return repr(float(number)) if variable.type in FLOATING else str(int(number))
+
+
+def _item(part: Part, variable: Variable, number: int) -> str:
+    for item, value in (variable.items or {}).items():
+        if value == number:
+            return item
+    raise FmuError(f"{part.path}: {variable.name}: no item has the value {number}")
 
 
 def _parameter(parent: Any, name: str, kind: str, values: list[str], unit: str) -> Any:
     parameter = etree.SubElement(parent, f"{{{SSV}}}Parameter", name=name)
     value = etree.SubElement(parameter, f"{{{SSV}}}{kind}")
-    value.set("value", " ".join(values))
+    if kind == "Enumeration" and len(values) > 1:
+        for one in values:
+            etree.SubElement(value, f"{{{SSV}}}Value", value=one)
+    else:
+        value.set("value", " ".join(values))
     if kind in FLOATING and unit:
         value.set("unit", unit)
     return parameter

@@ -27,6 +27,8 @@ SHAPE = error("parameter-dimension", "a set has as many values as dimensions say
 SOURCE = warning("mapping-source", "what a mapping names is in the parameter set")
 TARGET = error("mapping-target", "a mapping gives no two parameters to the same name")
 
+#: Types whose values are texts: an array has one element for each.
+TEXTS = ("String", "Enumeration", "Binary")
 NUMBERS = ("Real", "Float64", "Float32", "Integer")
 
 
@@ -75,7 +77,9 @@ class Parameter:
     def values(self) -> list[str]:
         """The values, as they are written."""
         text = str(self.node.get("value", ""))
-        return text.split() if self.type not in ("String", "Enumeration", "Binary") else [text]
+        if self.type not in TEXTS:
+            return text.split()
+        return [str(one.get("value", "")) for one in self.node.iterfind("{*}Value")] or [text]
 
 
 def parameters(document: Document) -> tuple[list[Parameter], list[Finding]]:
@@ -96,7 +100,7 @@ def parameters(document: Document) -> tuple[list[Parameter], list[Finding]]:
         one = Parameter(name, where, etree.QName(typed).localname, typed, sizes, measure)
         if name in listed:
             found.append(REPEATED.at(where, name, "each name once"))
-        if None not in sizes and one.type not in ("String", "Enumeration", "Binary"):
+        if None not in sizes:
             wanted = prod(size or 0 for size in sizes)
             if len(one.values) != wanted:
                 found.append(SHAPE.at(where, f"{len(one.values)} values", f"{wanted}: dimensions {written(sizes)}"))
