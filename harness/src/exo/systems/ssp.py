@@ -27,6 +27,7 @@ from typing import Any
 
 from lxml import etree
 
+from exo.errors import FmuError
 from exo.fmu import Archive
 from exo.systems.document import SSC, SSD, SSV, TOOL, TYPES, dimensions, text, write_enumerations, write_units
 from exo.systems.form import SSP_1, Form, Part, parts
@@ -200,7 +201,11 @@ def _connector(parent: Any, name: str, kind: str, *, of: tuple[Part, Variable], 
         used.units[variable.unit] = part.interface.units[variable.unit]
     if variable.type == "Enumeration":
         kind_of.set("name", variable.enumeration)
-        used.enumerations[variable.enumeration] = variable
+        known = used.enumerations.setdefault(variable.enumeration, variable)
+        if known.items != variable.items:
+            raise FmuError(
+                f"{part.path}: enumeration {variable.enumeration} has other items than in another FMU of the system"
+            )
     dimensions(connector, variable)
 
 
