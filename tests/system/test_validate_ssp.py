@@ -128,6 +128,9 @@ HOSTILE = {
     "a URI that is none": lambda files: files.update(
         {systems.DEFAULT: files[systems.DEFAULT].replace(b"resources/Plant.fmu", b"http://[")}
     ),
+    "a name of a hundred thousand dots": lambda files: files.update(
+        {SET: files[SET].replace(b'"plant.M"', b'"' + b"plant." * 100_000 + b'"')}
+    ),
     "control characters in names": lambda files: files.update({"resources/\x1b[2J.ssv": b""}),
 }
 
@@ -187,6 +190,9 @@ def test_the_command_says_what_is_wrong_and_lists_the_rules(tmp_path: Path, monk
     assert "connection hand → plant.arm: plant.arm; expected a connector of plant [ssp-connection-end]" in line
     (report,) = json.loads(CliRunner().invoke(app, ["validate", "--no-load", "--json", str(path)]).stdout)
     assert report["failed"]
+    gone = CliRunner().invoke(app, ["validate", str(tmp_path / "gone.ssp")])
+    assert gone.exit_code == 2
+    assert "gone.ssp: no such SSP archive: run `cargo xtask ssp` first" in gone.stderr
     listed = CliRunner().invoke(app, ["validate", "--rules"]).output
     assert all(rule in listed for rule in RULES)
 

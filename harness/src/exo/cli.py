@@ -257,7 +257,7 @@ def validate_fmus(
     as_json: Annotated[bool, typer.Option("--json", help="Findings as JSON.")] = False,
     rules: Annotated[bool, typer.Option("--rules", help="Lists the rules instead.")] = False,
 ) -> None:
-    """Validates FMI 2.0 co-simulation FMUs, with fmpy and by own rules; exit code 1 on an error."""
+    """Validates FMI 2.0 co-simulation FMUs and SSP archives; exit code 1 on an error."""
     if rules:
         _print_rules()
         return

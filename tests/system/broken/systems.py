@@ -31,8 +31,8 @@ def text(name: str) -> str:
 
 
 def fmu(description: str) -> bytes:
-    """An FMU that is its description only."""
-    return zipped({"modelDescription.xml": description.encode()})
+    """An FMU that is a description and a page."""
+    return zipped({"modelDescription.xml": description.encode(), "documentation/index.html": b"<html></html>"})
 
 
 def good() -> dict[str, bytes]:
@@ -129,6 +129,19 @@ MUTANTS = (
         "resources/plant.fmu",
     ),
     Mutant("ssp-source-missing", in_default("resources/all.ssv", "all.ssv"), "ParameterBinding of Good", "all.ssv"),
+    Mutant(
+        "ssp-source-missing",
+        in_default("documentation/index.html", "index.html"),
+        "MetaData",
+        "index.html in resources",
+    ),
+    Mutant(
+        "ssp-source-missing",
+        in_default('documentation/index.html" sourceBase="resource"', 'main.html"'),
+        "MetaData",
+        "main.html",
+    ),
+    Mutant("ssp-binding-source", in_default(' source="documentation/index.html"', ""), "MetaData", "neither"),
     Mutant("ssp-parses", _text(SET, "</ssv:ParameterSet>", ""), SET, "no element found"),
     Mutant("ssp-doctype", _text(SET, HEAD, HEAD + '<!DOCTYPE a [<!ENTITY b "c">]>'), f"{SET}:2", "<!DOCTYPE"),
     Mutant("ssp-encoding", _text(SET, "UTF-8", "ISO-8859-1"), f"{SET}:1", "ISO-8859-1"),

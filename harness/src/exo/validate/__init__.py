@@ -13,6 +13,8 @@ Steps 6 and 7 happen in `probe.py`, in a process of its own (`child.py`): a cras
 the FMU's machine code with the rights of the caller; `run=False` leaves step 7 out. What is extracted lies in a folder
 that goes with the check (`workspace.py`).
 
+SSP archives are judged by `ssp/`, which asks for the FMUs in them here.
+
 Not checked: model exchange (a ModelExchange element is only seen by the schema), FMI 1.0 and 3.0 (refused by
 `xml-version`), source code FMUs beyond the presence of `sources/`, libraries of other machines beyond their file, and
 behaviour beyond one step. Rules: `rule.py`; each is listed in docs/validate.md and shown to fire by a broken FMU.
@@ -74,6 +76,8 @@ def check(path: Path, *, run: bool = True, platforms: tuple[str, ...] = (), max_
 
     Raises FmuError where there is no file, or no room to extract it.
     """
+    if path.suffix == ".ssp" and not path.is_file():
+        raise FmuError(f"{path}: no such SSP archive: run `cargo xtask ssp` first")
     _ask_for_file(path)
     if path.suffix == ".ssp":
         inside = partial(check, run=run, platforms=platforms, max_glibc=max_glibc)

@@ -11,14 +11,20 @@ Not checked: geometry, signatures and metadata beyond the schema, clocks beyond 
 the archive. Rules: `rule.py`; each is listed in docs/validate-ssp.md and shown to fire by a broken archive.
 """
 
+import io
+import zipfile
 from collections.abc import Callable, Iterable
-from contextlib import ExitStack
+from contextlib import ExitStack, suppress
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, Protocol
+from urllib.parse import unquote
+
+from lxml import etree
 
 from exo.errors import FmuError
 from exo.systems import interface
+from exo.systems.document import SSC, SSD
 from exo.systems.interface import Interface
 from exo.validate.archive import DESCRIPTION, Contents, open_archive
 from exo.validate.rule import Finding
@@ -26,7 +32,7 @@ from exo.validate.ssp import bindings, connections, elements, package
 from exo.validate.ssp.bindings import BOTH, Names, Parameter
 from exo.validate.ssp.document import ROOTS, Document, judged, parse
 from exo.validate.ssp.elements import Element
-from exo.validate.ssp.package import DEFAULT, resolve
+from exo.validate.ssp.package import DEFAULT, MISSING, resolve
 from exo.validate.ssp.rule import RULES, error
 from exo.validate.workspace import workspace
 
@@ -84,6 +90,9 @@ class _Archive:
     _packages: set[str] = field(default_factory=set)
     #: Elements whose content was judged: a definition is used in several places.
     _inside: dict[Any, Document | None] = field(default_factory=dict)
+    #: Ids of systems by document; names of files by what lies inside, None for what is no archive.
+    _systems: dict[str, frozenset[str]] = field(default_factory=dict)
+    _names: dict[str, frozenset[str] | None] = field(default_factory=dict)
 
     def look(self) -> None:
         """All rules but those of the archive itself."""
@@ -110,10 +119,11 @@ class _Archive:
             if not stop > start:
                 where = document.place(one, "DefaultExperiment")
                 self.found.append(EXPERIMENT.at(where, f"from {start:g} to {stop:g} s", "an end after the start"))
+        self.metadata(document)
         for top in document.all("ssd:System"):
             interfaces = {
                 node: known
-                for node in top.iter("{*}Component")
+                for node in top.iter(f"{{{SSD}}}Component")
                 if (known := self.component(document, node)) is not None
             }
             root = elements.read(document, top, interfaces, self.found)
@@ -133,7 +143,7 @@ class _Archive:
         if source is None:
             return None
         if source.startswith("#"):
-            if not any(one.get("id") == source[1:] for one in document.root.iter("{*}System")):
+            if source[1:] not in self.systems(document):
                 self.found.append(SYSTEM.at(where, source, "the id of a System in this document"))
             return None
         file, problems = resolve(self.contents, document, where, source)
@@ -147,6 +157,44 @@ class _Archive:
         elif kind == SSP_TYPE:
             self.package(file)
         return None
+
+    def systems(self, document: Document) -> frozenset[str]:
+        """The ids of the document's systems."""
+        if document.file not in self._systems:
+            known = (one.get("id") for one in document.root.iter(f"{{{SSD}}}System"))
+            self._systems[document.file] = frozenset(name for name in known if name)
+        return self._systems[document.file]
+
+    def metadata(self, document: Document) -> None:
+        """Where metadata, signatures and icons lie; what lies in a resource is looked for in that."""
+        for node in document.root.iter(f"{{{SSC}}}MetaData", f"{{{SSC}}}Signature", f"{{{SSD}}}ElementGeometry"):
+            name = etree.QName(node).localname
+            where = document.place(node, name)
+            source = node.get("iconSource" if name == "ElementGeometry" else "source")
+            if name != "ElementGeometry" and (source is None) == (node.find(f"{{{SSC}}}Content") is None):
+                value = "neither" if source is None else "both"
+                self.found.append(BOTH.at(where, value, "a source or one ssc:Content"))
+            elif source is not None and node.get("sourceBase", "file") == "file":
+                self.found += resolve(self.contents, document, where, source)[1]
+            elif source is not None and node.get("sourceBase") == "resource":
+                self.within(document, node, where, source)
+
+    def within(self, document: Document, node: Any, where: str, source: str) -> None:
+        """Metadata that lie in the FMU or archive of the element around."""
+        of = node.getparent().get("source")
+        if of is None:
+            self.found.append(BOTH.at(where, "sourceBase resource", "an element around it that has a source"))
+            return
+        file, _ = resolve(self.contents, document, where, of)
+        if not file:
+            return  # the component says so
+        if file not in self._names:
+            self._names[file] = None
+            with suppress(zipfile.BadZipFile), zipfile.ZipFile(io.BytesIO(self.contents.read(file))) as inner:
+                self._names[file] = frozenset(inner.namelist())
+        names = self._names[file]
+        if names is not None and unquote(source) not in names:
+            self.found.append(MISSING.at(where, f"{source} in {file}", "a file of that archive"))
 
     def fmu(self, file: str, where: str) -> Interface | None:
         """The FMU's interface; each FMU is judged once."""
@@ -193,12 +241,11 @@ class _Archive:
     def entries(self, document: Document, top: Any) -> dict[Any, frozenset[str]]:
         """The entries of each dictionary that could be read."""
         found = {}
-        for node in top.iter("{*}SignalDictionary"):
-            if node.getparent().tag.endswith("}SignalDictionaries"):
-                name = f"SignalDictionary {node.get('name', '')}"
-                inner = self.content(document, node, node, name, "ssb:SignalDictionary")
-                if inner is not None:
-                    found[node] = frozenset(one.get("name", "") for one in inner.all("ssb:DictionaryEntry"))
+        for node in top.iter(f"{{{SSD}}}SignalDictionary"):
+            name = f"SignalDictionary {node.get('name', '')}"
+            inner = self.content(document, node, node, name, "ssb:SignalDictionary")
+            if inner is not None:
+                found[node] = frozenset(one.get("name", "") for one in inner.all("ssb:DictionaryEntry"))
         return found
 
     def content(self, document: Document, node: Any, holder: Any, name: str, path: str) -> Document | None:
@@ -209,7 +256,7 @@ class _Archive:
         source = node.get("source")
         inner = [] if holder is None else document.all(path, holder)
         result: Document | None = None
-        others = holder is not None and len(holder) > 0
+        others = holder is not None and any(map(_is_content, holder))
         if (source is not None) == others or len(inner) > 1:
             self.found.append(BOTH.at(where, "both" if source is not None else "neither", f"a source or one {path}"))
         elif inner:
@@ -261,3 +308,8 @@ class _Archive:
             self.found += problems
             return result
         return [(one.name, one, False) for one in listed]
+
+
+def _is_content(child: Any) -> bool:
+    """Whether it is more than a comment or what is said of the content."""
+    return isinstance(child.tag, str) and etree.QName(child).localname not in ("MetaData", "Signature", "Annotations")

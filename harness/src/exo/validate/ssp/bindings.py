@@ -149,14 +149,13 @@ class Names:
         variable = element.interface.variables.get(name) if element.interface else None
         if connector or variable:
             found.append(Target(id(element), element.name, name, variable, element.interface, connector))
-        at = name.find(".")
-        while at >= 0:
-            child = element.children.get(name[:at])
+        # Names of elements have dots, too. A name with a hundred thousand of them is not tried at each.
+        for at in element.lengths:
+            child = element.children.get(name[:at]) if name[at : at + 1] == "." else None
             if child is not None:
                 below, unread = self._find(child, name[at + 1 :])
                 found += below
                 closed = closed or unread
-            at = name.find(".", at + 1)
         self._known[key] = found, closed
         return found, closed
 

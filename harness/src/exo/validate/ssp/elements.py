@@ -3,6 +3,7 @@
 from collections.abc import Iterator, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Any
 
 from lxml import etree
@@ -54,6 +55,11 @@ class Element:
     #: Of a component whose FMU could be read.
     interface: Interface | None = None
     children: dict[str, "Element"] = field(default_factory=dict)
+
+    @cached_property
+    def lengths(self) -> list[int]:
+        """How long the names of children are."""
+        return sorted(set(map(len, self.children)))
 
 
 def read(document: Document, node: Any, interfaces: Mapping[Any, Interface], found: list[Finding]) -> Element:
