@@ -30,7 +30,8 @@ def test_the_versions_are_those_that_run() -> None:
 
 
 def test_every_fmu_and_every_system_has_a_row_and_every_importer_runs_every_fmu() -> None:
-    systems = [f"{name}{kind}" for kind in (".fmu (container)", ".ssp", f"{CLOSED}.ssp") for name in RECIPES]
+    kinds = ("{}.fmu (container)", "{}.ssp", f"{{}}{CLOSED}.ssp", "{}.ssp (SSP 2.0)", f"{{}}{CLOSED}.ssp (SSP 2.0)")
+    systems = [kind.format(name) for kind in kinds for name in RECIPES]
     fmi3 = [f"fmi3/{name}.fmu" for name in NAMES] + [f"fmi3/scheduled/{name}.fmu" for name in NAMES_SCHEDULED]
     assert sorted(one["name"] for one in MATRIX.subject) == sorted([f"{name}.fmu" for name in NAMES] + fmi3 + systems)
     known = [one["name"] for one in MATRIX.importer]

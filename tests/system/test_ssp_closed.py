@@ -14,8 +14,7 @@ from typing import Any, NamedTuple
 import fmpy.ssp
 import numpy as np
 import pytest
-from fmpy.ssp.simulation import simulate_ssp
-from fmpy.ssp.ssd import ParameterSet, read_ssd, read_ssv
+from fmpy.ssp.ssd import read_ssd
 from lxml import etree
 from typer.testing import CliRunner, Result
 
@@ -28,35 +27,12 @@ from exo.scenario import Segment
 from exo.simulate import Plan, simulate
 from exo.systems import closed, ssp, system
 
-from foreign.cosim import cosim
-from foreign.ecos import ecos, tbb
+from foreign.ecos import tbb
+from foreign.ssp_runs import through_ecos, through_fmpy, through_libcosim
 
 NAMESPACES = {"ssd": ssp.SSD, "ssc": ssp.SSC, "ssv": ssp.SSV, "oms": ssp.OMS}
 #: A step whose multiples are exact in seconds and in libcosim's nanoseconds: 1,953,125 ns.
 EXACT_T = 2.0**-9
-
-
-def through_ecos(path: Path, data: system.System, steps: int, outputs: Mapping[str, str]) -> dict[str, list[float]]:
-    job = {"ssp": str(path), "set": data.default, "step": data.step, "steps": steps, "outputs": dict(outputs)}
-    return ecos(job)
-
-
-def through_libcosim(path: Path, data: system.System, steps: int, outputs: Mapping[str, str]) -> dict[str, list[float]]:
-    nothing: dict[str, Any] = {"instances": {}, "start": {}, "connections": {}, "inputs": {}}
-    step = round(data.step * 1e9)
-    return cosim({"ssp": str(path), "step_ns": step, "steps": steps, "outputs": list(outputs)} | nothing)
-
-
-def through_fmpy(path: Path, data: system.System, steps: int, outputs: Mapping[str, str]) -> dict[str, list[float]]:
-    together = ParameterSet(name=data.default)
-    for component in data.components:
-        for one in read_ssv(str(path), resource=ssp.resource(data.default, component)).parameters:
-            one.name = f"{component}.{one.name}"
-            together.parameters.append(one)
-    # Half a step short of the end, so that no rounding of the summed time adds a step.
-    stop = (steps - 0.5) * data.step
-    found = simulate_ssp(str(path), stop_time=stop, step_size=data.step, parameter_set=together)
-    return {key: found[key].tolist() for key in outputs}
 
 
 class Of(NamedTuple):

@@ -43,7 +43,7 @@ from exo.references import replay
 from exo.references import write as references
 from exo.scenario import Scenario
 from exo.screen import console, sentences
-from exo.systems import closed, container, ssp
+from exo.systems import closed, container, form, ssp
 from exo.systems import system as systems
 from exo.systems.system import RECIPES
 from exo.tuning import asked, reading, show
@@ -272,8 +272,14 @@ def write_ssp(
             "--set", help="Parameter set that the SSP archives bind, as wall-standard_10_0.5; may be repeated."
         ),
     ] = None,
+    inline: Annotated[
+        bool, typer.Option("--inline", help="Parameter values inside the descriptions, no files.")
+    ] = False,
+    fmi3_dir: Annotated[
+        Path | None, typer.Option("--fmi3-dir", help="Folder of FMI 3.0 archives; else fmi3 in that of the others.")
+    ] = None,
 ) -> None:
-    """Writes the coupled systems: SSP archives with the scenarios' parameter sets, and containers, each one FMU."""
+    """Writes the coupled systems: SSP 1.0; in ssp2 SSP 2.0, with a variant for each parameter set; containers."""
     with sentences(), ExitStack() as stack:
         folder = find_fmu_dir(fmu_dir)
         defaults = systems.defaults(bound or ())
@@ -282,11 +288,13 @@ def write_ssp(
             alone = closed.load(name, default=defaults.get(name))
             files = sorted({*system.components.values(), *alone.components.values()})
             archives = {file: stack.enter_context(Archive(folder / file)) for file in files}
-            for path in (
-                ssp.write(system=system, archives=archives, folder=out),
-                ssp.write(system=alone, archives=archives, folder=out),
-                container.write(system=system, archives=archives, folder=out),
-            ):
+            forms = form.forms(out, files, twins=fmi3_dir, default_twins=folder / "fmi3", inline=inline)
+            written = [
+                ssp.write(system=one, archives=archives, folder=place, form=how)
+                for place, how in forms.items()
+                for one in (system, alone)
+            ]
+            for path in (*written, container.write(system=system, archives=archives, folder=out)):
                 console.print(f"{path}  {path.stat().st_size // 1000} kB", markup=False)
 
 
@@ -303,7 +311,7 @@ def validate_fmus(
     as_json: Annotated[bool, typer.Option("--json", help="Findings as JSON.")] = False,
     rules: Annotated[bool, typer.Option("--rules", help="Lists the rules instead.")] = False,
 ) -> None:
-    """Validates FMI 2.0 co-simulation FMUs, with fmpy and by own rules; exit code 1 on an error."""
+    """Validates FMI 2.0 co-simulation FMUs and SSP archives; exit code 1 on an error."""
     if rules:
         _print_rules()
         return
@@ -420,7 +428,7 @@ def identify_tool(
 
 def _print_rules() -> None:
     table = screen.table("rule", "severity", "holds when")
-    for rule in validate.RULES.values():
+    for rule in (*validate.RULES.values(), *validate.ssp.RULES.values()):
         screen.add(table, rule.id, rule.severity, rule.text)
     screen.print_table(table)
 

@@ -19,7 +19,7 @@ Tools that connect components only run the same systems without inputs: `exo.sys
 """
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 from exo import presets
 from exo import scenario as scenarios
@@ -77,6 +77,10 @@ class System:
     step: float
     #: Length of the default set's experiment (s).
     duration: float
+    #: Length of each set's experiment (s).
+    durations: Mapping[str, float] = field(default_factory=dict)
+    #: Name of a description that is not the archive's default; the set that it binds.
+    variant: str = ""
 
 
 def load(name: str, *, default: str | None = None) -> System:
@@ -112,6 +116,7 @@ def load(name: str, *, default: str | None = None) -> System:
         default=bound,
         step=first.step,
         duration=plans[bound].duration,
+        durations={key: one.duration for key, one in plans.items()},
     )
 
 

@@ -14,6 +14,8 @@ Steps 6 to 8 happen in processes of their own (`child.py` with `probe.py` or the
 a finding, not an end. Loading runs the FMU's machine code with the rights of the caller; `run=False` leaves step 7 and
 the replaying out. What is extracted lies in a folder that goes with the check (`workspace.py`).
 
+SSP archives are judged by `ssp/`, which asks for the FMUs in them here.
+
 Not checked: model exchange (a ModelExchange element is only seen by the schema), FMI 1.0 and 3.0 (refused by
 `xml-version`), source code FMUs beyond the presence of `sources/`, libraries of other machines beyond their file, and
 behaviour beyond one step. Rules: `rule.py`; each is listed in docs/validate.md and shown to fire by a broken FMU.
@@ -21,6 +23,7 @@ behaviour beyond one step. Rules: `rule.py`; each is listed in docs/validate.md 
 
 from contextlib import ExitStack
 from dataclasses import asdict, dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -37,6 +40,7 @@ from exo.validate import (
     load,
     naming,
     references,  # noqa: F401  its rules are listed, and asked by exo.references
+    ssp,
     structure,
     units,
     variables,
@@ -84,7 +88,13 @@ def check(path: Path, *, run: bool = True, platforms: tuple[str, ...] = (), max_
     """
     from exo.references.replay import look  # noqa: PLC0415  which needs the archive of this package
 
+    if path.suffix == ".ssp" and not path.is_file():
+        raise FmuError(f"{path}: no such SSP archive: run `cargo xtask ssp` first")
     _ask_for_file(path)
+    if path.suffix == ".ssp":
+        inside = partial(check, run=run, platforms=platforms, max_glibc=max_glibc)
+        of_system, left_out = ssp.findings(path, inside)
+        return Report(path, tuple(of_system), tuple(left_out))
     with ExitStack() as stack:
         contents, found = open_archive(path, stack)
         if contents is None:

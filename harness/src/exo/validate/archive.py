@@ -13,6 +13,8 @@ from exo.errors import FmuError
 from exo.validate.rule import Finding, Severity, error, printable, warning
 
 DESCRIPTION = "modelDescription.xml"
+#: Extensions of the documents of an SSP archive.
+DOCUMENTS = (".ssd", ".ssv", ".ssm", ".ssb")
 
 READABLE = error(
     "archive-readable", "the file is a ZIP archive whose entries can all be read, unencrypted, with good checksums"
@@ -31,8 +33,10 @@ LENGTH = error(
 LINK = error("archive-link", "entries are files and folders, not links")
 ASCII = error("archive-ascii", "names are printable ASCII")
 CASE = error("archive-case", "names stay unique when case is folded, and no file is also a folder")
-EXTENSION = warning("archive-extension", "the file is called .fmu")
-DESCRIBED = error("archive-description", "modelDescription.xml lies at the root")
+EXTENSION = warning("archive-extension", "the file is called .fmu, an SSP archive .ssp")
+DESCRIBED = error(
+    "archive-description", "modelDescription.xml, in an SSP archive SystemStructure.ssd, lies at the root"
+)
 
 #: Largest number of entries, bytes of one entry, bytes of all, bytes of the description. Real FMUs with maps and data
 #: reach hundreds of megabytes; a description of 100 000 variables has about 30 MB.
@@ -74,14 +78,16 @@ class Contents:
             raise FmuError(f"{self.archive.filename}: cannot be extracted into {folder}: {problem}") from problem
 
 
-def open_archive(path: Path, stack: ExitStack) -> tuple[Contents | None, list[Finding]]:
+def open_archive(
+    path: Path, stack: ExitStack, *, extension: str = ".fmu", described: str = DESCRIPTION
+) -> tuple[Contents | None, list[Finding]]:
     """What the archive holds, or None when it is not safe to go on, and what is wrong with it.
 
-    The archive stays open until the stack is left.
+    `described` is the file that must lie at the root. The archive stays open until the stack is left.
     """
     found: list[Finding] = []
-    if path.suffix != ".fmu":
-        found.append(EXTENSION.at("file name", path.suffix or "no extension", ".fmu"))
+    if path.suffix != extension:
+        found.append(EXTENSION.at("file name", path.suffix or "no extension", extension))
     try:
         archive = stack.enter_context(zipfile.ZipFile(path))
         entries = {entry: _name(entry) for entry in archive.infolist()}
@@ -99,9 +105,9 @@ def open_archive(path: Path, stack: ExitStack) -> tuple[Contents | None, list[Fi
         files={name: entry for entry, name in entries.items() if not name.endswith("/")},
         folders=frozenset(folder for name in entries.values() for folder in _folders(name)),
     )
-    if DESCRIPTION not in contents.files:
-        deeper = [name for name in contents.files if name.casefold().split("/")[-1] == DESCRIPTION.casefold()]
-        found.append(DESCRIBED.at("archive", f"found only {deeper[0]}" if deeper else "missing", DESCRIPTION))
+    if described not in contents.files:
+        deeper = [name for name in contents.files if name.casefold().split("/")[-1] == described.casefold()]
+        found.append(DESCRIBED.at("archive", f"found only {deeper[0]}" if deeper else "missing", described))
         return None, found
     return contents, found
 
@@ -127,7 +133,7 @@ def _sizes(entries: Entries) -> Iterator[Finding]:
     if total > MAX_TOTAL:
         yield SIZE.at("archive", f"{total} bytes when extracted", f"at most {MAX_TOTAL}")
     for entry, name in entries.items():
-        limit = MAX_DESCRIPTION if name == DESCRIPTION else MAX_ENTRY
+        limit = MAX_DESCRIPTION if name == DESCRIPTION or name.endswith(DOCUMENTS) else MAX_ENTRY
         if entry.file_size > limit:
             yield SIZE.at(printable(name), f"{entry.file_size} bytes", f"at most {limit}")
         elif entry.file_size > max(RATIO_FROM, MAX_RATIO * entry.compress_size):
