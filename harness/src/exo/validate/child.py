@@ -1,8 +1,9 @@
 """A process of its own for foreign machine code: what it does to itself, the checker survives and reports.
 
 `run` starts the process (`exo.probe`) and gives it a task as JSON; the process appends one JSON line for each fact to
-a file, so that all facts from before a crash are kept. The last fact says that the task is done, as an exit code of 0 does not: foreign
-code can call exit. The standard streams belong to the FMU: whatever comes there is a fact, too, up to a limit.
+a file, so that all facts from before a crash are kept. The last fact says that the task is done, as an exit code of 0
+does not: foreign code can call exit. The standard streams belong to the FMU: whatever comes there is a fact, too, up to
+a limit.
 """
 
 import json

@@ -69,7 +69,7 @@ def missing(refusal: str) -> str | None:
 def findings(
     description: Description, folder: Path, path: Path, skipped: list[str], verdicts: list[Verdict] | None = None
 ) -> Iterator[Finding]:
-    """All of this module's rules, with `verdicts` the dynamic ones too; adds to `skipped` what this machine cannot judge."""
+    """All of this module's rules, with `verdicts` the dynamic ones; adds to `skipped` what cannot be judged here."""
     variables = {v.index: v for v in description.variables if tasks.is_read(description, v)}
     if not (folder / "resources").exists():  # it may be a file
         (folder / "resources").mkdir()
@@ -140,14 +140,14 @@ def _equal(kind: str, text: str, value: Any) -> bool:
     if kind == "Boolean":
         return bool(value) == (text.strip() in ("true", "1"))
     if kind in FLOATS:
-        return _as_stored(kind, number(text)) == value
-    return text.strip().lstrip("+-").isdigit() and int(text) == value
+        return bool(_as_stored(kind, number(text)) == value)
+    return bool(text.strip().lstrip("+-").isdigit() and int(text) == value)
 
 
 def _as_stored(kind: str, value: float | None) -> float | None:
     """What is left of a number in a variable of this kind."""
     try:
-        return unpack("f", pack("f", value))[0] if kind == "Float32" and value is not None else value
+        return float(unpack("f", pack("f", value))[0]) if kind == "Float32" and value is not None else value
     except OverflowError:
         return None
 
