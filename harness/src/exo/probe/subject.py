@@ -57,6 +57,12 @@ class Subject:
         """Initializes an instance."""
         self.plain("Initialization", max(self.fmu.enter(instance, self.start_time, stop), self.fmu.exit(instance)))
 
+    def close(self, *instances: c_void_p) -> None:
+        """Ends runs and gives the instances back."""
+        for instance in instances:
+            self.fmu.terminate(instance)
+            self.fmu.free(instance)
+
     def plain(self, what: str, answer: int) -> None:
         """What must work before anything can be judged: `load-status` says when it does not."""
         if answer not in GOOD:

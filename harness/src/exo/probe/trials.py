@@ -16,6 +16,8 @@ from exo.probe.subject import STEPS, SkipError, Subject, WrongError, next_to
 
 #: A value reference that hardly any FMU has.
 NOWHERE = 4_123_456_789
+#: Uneven steps, as shares of the usual one.
+SHARES = (0.5, 1.0, 2.0, 1.0 / 3.0, 1.0)
 
 
 def repeat(fmu: Subject) -> None:
@@ -24,7 +26,7 @@ def repeat(fmu: Subject) -> None:
     for _ in range(2):
         instance = fmu.started()
         traces.append(fmu.run(instance))
-        fmu.fmu.free(instance)
+        fmu.close(instance)
     fmu.same(traces[1], traces[0], "in the second of two equal runs")
 
 
@@ -37,7 +39,7 @@ def order(fmu: Subject) -> None:
         backwards = fmu.read(instance, fmu.outputs[::-1])[::-1]
         fmu.same([backwards], [forwards], "when the outputs are read in another order")
         fmu.same([fmu.read(instance)], [forwards], "when the outputs are read again")
-    fmu.fmu.free(instance)
+    fmu.close(instance)
 
 
 def state(fmu: Subject) -> None:
@@ -54,7 +56,7 @@ def state(fmu: Subject) -> None:
         again = fmu.run(instance, first=STEPS, states_are_left=True)
         fmu.same(again, ahead, f"after the FMU state was set the {time} time")
     fmu.must("freeing the FMU state", fmu.fmu.free_state(instance, copy))
-    fmu.fmu.free(instance)
+    fmu.close(instance)
 
 
 def serialized(fmu: Subject) -> None:
@@ -76,15 +78,14 @@ def serialized(fmu: Subject) -> None:
         fmu.must(f"setting the deserialized FMU state {where}", fmu.fmu.set_state(other, copy))
         fmu.same(fmu.run(other, first=STEPS, states_are_left=True), ahead, f"from the deserialized FMU state {where}")
         fmu.fmu.free_state(other, copy)
-    for other, _ in places:
-        fmu.fmu.free(other)
+    fmu.close(*(other for other, _ in places))
 
 
 def reset(fmu: Subject) -> None:
     """A used instance that is reset, in the middle of a run and after its end, against a fresh one."""
     fresh = fmu.new()
     values, trace = _read_and_run(fmu, fresh)
-    fmu.fmu.free(fresh)
+    fmu.close(fresh)
     instance = _with_other_parameters(fmu)
     for end in ("in the middle of a run", "after a run"):
         if end == "after a run":
@@ -114,11 +115,9 @@ def _with_other_parameters(fmu: Subject) -> Any:
 
 
 def _read_and_run(fmu: Subject, instance: Any) -> tuple[list[Any], list[list[Any]]]:
-    """What is read in initialization mode before anything is set, and a run."""
-    fmu.plain("Initialization", fmu.fmu.enter(instance, fmu.start_time))
-    values = fmu.read(instance, fmu.told)
-    fmu.plain("Initialization", fmu.fmu.exit(instance))
-    return values, fmu.run(instance)
+    """What is read after initialization, when nothing was set, and a run."""
+    fmu.start(instance)
+    return fmu.read(instance, fmu.told), fmu.run(instance)
 
 
 def instances(fmu: Subject) -> None:
@@ -127,15 +126,15 @@ def instances(fmu: Subject) -> None:
     for seed in (0, 3):
         instance = fmu.started()
         alone.append(fmu.run(instance, steps=2 * STEPS, seed=seed))
-        fmu.fmu.free(instance)
+        fmu.close(instance)
     first, second = fmu.started(), fmu.started()
     traces: tuple[list[Any], list[Any]] = ([], [])
     for number in range(STEPS):
         traces[0].extend(fmu.run(first, first=number, steps=1))
         traces[1].extend(fmu.run(second, first=number, steps=1, seed=3))
-    fmu.fmu.free(second)
+    fmu.close(second)
     traces[0].extend(fmu.run(first, first=STEPS))
-    fmu.fmu.free(first)
+    fmu.close(first)
     for trace, expected in zip(traces, alone, strict=True):
         fmu.same(trace, expected[: len(trace)], "when another instance runs in the same process")
 
@@ -145,7 +144,7 @@ def step_size(fmu: Subject) -> None:
     traces = []
     for _ in range(2):
         instance, time, trace = fmu.started(), fmu.start_time, []
-        for number, share in enumerate((0.5, 1.0, 2.0, 1.0 / 3.0, 1.0)):
+        for number, share in enumerate(SHARES):
             fmu.feed(instance, number)
             size = share * fmu.size
             answer = fmu.fmu.step(instance, time, size)
@@ -157,7 +156,7 @@ def step_size(fmu: Subject) -> None:
             time += size
             trace.append(fmu.read(instance))
         traces.append(trace)
-        fmu.fmu.free(instance)
+        (fmu.close if len(trace) == len(SHARES) else fmu.fmu.free)(instance)
     fmu.same(traces[1], traces[0], "in the second of two equal runs with uneven steps")
 
 
@@ -167,7 +166,7 @@ def not_finite(fmu: Subject) -> None:
         raise SkipError("it has no floating-point input")
     fresh = fmu.started()
     trace = fmu.run(fresh)
-    fmu.fmu.free(fresh)
+    fmu.close(fresh)
     for value in (nan, inf, -inf):
         instance = fmu.started()
         for variable in fmu.inputs:
@@ -181,6 +180,7 @@ def not_finite(fmu: Subject) -> None:
         if fmu.fmu.reset(instance) in GOOD:
             fmu.start(instance)
             fmu.same(fmu.run(instance), trace, f"after inputs of {value} and a reset")
+            fmu.fmu.terminate(instance)
         fmu.fmu.free(instance)
 
 
@@ -271,7 +271,7 @@ def event_mode(fmu: Subject) -> None:
         fmu.run(instance, first=number, steps=1)
         if library.last_step.terminate:
             break
-    fmu.fmu.free(instance)
+    fmu.close(instance)
 
 
 def early_return(fmu: Subject) -> None:
@@ -283,7 +283,7 @@ def early_return(fmu: Subject) -> None:
         _time_is_within(library, fmu.start_time + number * fmu.size, fmu.size)
         if library.last_step.early:
             raise WrongError("earlyReturn is true, but earlyReturnAllowed was false", "the whole step")
-    fmu.fmu.free(instance)
+    fmu.close(instance)
     if not library.task["early return"]:
         return
     instance = fmu.started(early=True)
@@ -299,7 +299,7 @@ def early_return(fmu: Subject) -> None:
         time = library.last_step.last if early else time + fmu.size
         if library.last_step.terminate:
             break
-    fmu.fmu.free(instance)
+    fmu.close(instance)
 
 
 def _time_is_within(library: Library3, time: float, size: float) -> None:

@@ -112,7 +112,7 @@ def _calls(description: Description, answer: Answer, where: str) -> Iterator[Fin
     if answer.facts("instantiated") == [False]:
         yield INSTANTIATE.at(where, "refused", f"an instance for the {token} of the description")
     if answer.facts("other guid accepted") == [True]:
-        yield GUID.at(where, f"accepted a {token} that is not the description's", "NULL")
+        yield GUID.at(where, f"accepted another {token} than the description's", "NULL")
     refused = dict.fromkeys(
         tuple(status) for status in answer.facts("status") if not status[0].startswith(f"{prefix}Get")
     )
