@@ -1,4 +1,4 @@
-"""`exo validate --load`: dynamic rules on good FMUs, and verdicts of what cannot be judged. Mutants: test_validate.py."""
+"""`exo validate --load`: dynamic rules on good FMUs, and what cannot be judged. Broken ones: test_validate.py."""
 
 import json
 from pathlib import Path

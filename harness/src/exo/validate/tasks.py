@@ -90,6 +90,8 @@ def _clocks(description: Description) -> tuple[list[int], float | None]:
     ]
     shortest = min((interval for interval, _, _ in clocks), default=None)
     found = sorted(
-        (priority, reference) for interval, priority, reference in clocks if interval == shortest and reference
+        (priority, reference)
+        for interval, priority, reference in clocks
+        if interval == shortest and reference is not None
     )
     return [reference for _, reference in found], shortest
