@@ -77,7 +77,7 @@ def test_a_mach_o_library_without_export_trie_exports_by_its_symbol_table(tmp_pa
 @pytest.mark.parametrize("version", VERSIONS.values(), ids=lambda version: version.name)
 def test_the_functions_of_a_version_are_those_of_the_standard_s_header(version: Version) -> None:
     header = Path(fmpy.__file__).parent / "c-code" / f"{version.prefix}Functions.h"
-    declared = re.findall(r"^FMI\d_Export \w+TYPE\s+(fmi\d\w+);", header.read_text(encoding="utf-8"), re.MULTILINE)
+    declared = re.findall(r"^\s*FMI\d_Export \w+TYPE\s+(fmi\d\w+);", header.read_text(encoding="utf-8"), re.MULTILINE)
     known = [name for names in version.functions.values() for name in names]
     assert sorted(known) == sorted(declared)
 
