@@ -12,12 +12,14 @@ from typer.testing import CliRunner
 
 from exo import validate
 from exo.cli import app
-from exo.validate import RULES, binaries, check, child, problems
+from exo.validate import RULES, behaviour, binaries, check, child, problems
 from exo.validate.archive import Contents
 from exo.validate.si import meaning, written
 
-from broken.mutants import ARM, MUTANTS, PLAIN, TC, Mutant
-from broken.parts import XML, Parts, plain
+from broken.moving import DYNAMIC
+from broken.mutants import ARM, MUTANTS, TC, Mutant
+from broken.mutants3 import MUTANTS3
+from broken.parts import COMPILED, XML, Parts, plain
 from broken.references import PLAYED, REFERENCES
 
 
@@ -33,27 +35,33 @@ def test_a_good_fmu_has_no_finding(fmu: Path) -> None:
     assert not report.failed(strict=True)
 
 
-def test_neither_has_a_good_fmu_that_is_not_ours(tmp_path: Path) -> None:
-    report = check(plain(tmp_path).write(tmp_path), max_glibc="99.0")
-    assert (report.findings, report.skipped) == ((), ())
+@pytest.mark.parametrize("name", COMPILED)
+def test_neither_has_a_good_fmu_that_is_not_ours(name: str, tmp_path: Path) -> None:
+    report = check(COMPILED[name](tmp_path).write(tmp_path), max_glibc="99.0")
+    assert (report.findings, report.skipped, report.verdicts) == ((), (), ())
 
 
-@pytest.mark.parametrize("mutant", [*MUTANTS, *REFERENCES], ids=lambda mutant: mutant.id)
+@pytest.mark.parametrize("mutant", [*MUTANTS, *MUTANTS3, *REFERENCES], ids=lambda mutant: mutant.id)
 def test_one_broken_thing_is_found(
     mutant: Mutant, tmp_path: Path, bases: Mapping[str, Path], monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    dynamic = mutant.rule.startswith("run-")
     if not mutant.rule.startswith(("binary-", "load-")):
         # Its library is a good one: a second for each of a hundred FMUs.
         monkeypatch.setattr(binaries, "findings", lambda *_, **__: iter(()))
-    parts = plain(tmp_path, *mutant.macros) if mutant.base == PLAIN else Parts.of(bases[mutant.base])
+    if dynamic:
+        monkeypatch.setattr(behaviour, "TRIALS", [one for one in behaviour.TRIALS if one.rule.id == mutant.rule])
+    parts = compiled(mutant, tmp_path) if mutant.base in COMPILED else Parts.of(bases[mutant.base])
     mutant.change(parts)
     path = parts.write(tmp_path)
-    report = check(path, run=mutant.rule.startswith("load-") or mutant in PLAYED, **mutant.options)
+    run = dynamic or mutant in PLAYED or mutant.rule.startswith("load-")
+    report = check(path, run=run, dynamic=dynamic, **mutant.options)
     found = {finding.rule for finding in report.findings}
     assert mutant.rule in found, report
     (severity,) = {finding.severity for finding in report.findings if finding.rule == mutant.rule}
     assert severity == RULES[mutant.rule].severity
     assert report.failed(strict=True)
+    assert [verdict.verdict for verdict in report.verdicts] == (["failed"] if dynamic else [])
     if mutant.fmpy is not None:
         # Where the description cannot be read, check does not ask fmpy.
         # variable-structured is fmpy's rule, judged faster.
@@ -61,8 +69,23 @@ def test_one_broken_thing_is_found(
         assert bool(asked) == mutant.fmpy, report
 
 
+#: Good libraries by base, compiled once.
+GOOD: dict[str, Parts] = {}
+
+
+def compiled(mutant: Mutant, folder: Path) -> Parts:
+    """The FMU in C; where no macro breaks it, a copy of one that is there already."""
+    if mutant.macros:
+        return COMPILED[mutant.base](folder, *mutant.macros)
+    if mutant.base not in GOOD:
+        GOOD[mutant.base] = COMPILED[mutant.base](folder)
+    return Parts(dict(GOOD[mutant.base].entries))
+
+
 def test_each_rule_has_a_broken_fmu() -> None:
-    assert {mutant.rule for mutant in (*MUTANTS, *REFERENCES)} == set(RULES)
+    assert {mutant.rule for mutant in (*MUTANTS, *MUTANTS3, *REFERENCES)} == set(RULES)
+    assert {mutant.rule for mutant in MUTANTS3} >= {rule.id for rule in RULES.values() if rule.only == "3.0"}
+    assert {rule for rule, *_ in DYNAMIC} == {trial.rule.id for trial in behaviour.TRIALS}
 
 
 def test_a_library_that_hangs_is_found(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -183,6 +206,7 @@ def test_the_command_prints_json_and_the_rules(fmu_dir: Path, tmp_path: Path) ->
     assert answer.exit_code == 0, answer.output
     good, other = json.loads(answer.output)
     assert (good["failed"], good["findings"], good["skipped"]) == (False, [], ["loading: not wanted"])
+    assert good["verdicts"] == []
     (finding,) = other["findings"]
     assert set(finding) == {"rule", "severity", "where", "value", "expected"}
     assert (finding["rule"], finding["severity"], finding["where"]) == ("layout-root", "warning", "readme.txt")
@@ -195,5 +219,5 @@ def test_the_command_prints_json_and_the_rules(fmu_dir: Path, tmp_path: Path) ->
 
 def test_the_documents_list_the_rules() -> None:
     page = (Path(__file__).parents[2] / "docs" / "validate.md").read_text(encoding="utf-8")
-    rows = re.findall(r"^\| `([a-z-]+)` \| (error|warning) \| (.*) \|$", page, re.MULTILINE)
-    assert rows == [(rule.id, rule.severity, rule.text) for rule in RULES.values()]
+    rows = re.findall(r"^\| `([a-z-]+)` \| (error|warning) \| (.*?) \| (.*) \|$", page, re.MULTILINE)
+    assert rows == [(rule.id, rule.severity, rule.only or "2.0, 3.0", rule.text) for rule in RULES.values()]

@@ -1,16 +1,19 @@
 """What `exo validate` must not hold against an FMU of another tool, and what must not keep it from going on."""
 
+import re
 from pathlib import Path
 
+import fmpy
 import pytest
 
 from exo.validate import binaries, check
 from exo.validate.binaries import FUNCTIONS
 from exo.validate.documentation import decoded
 from exo.validate.load import host_platforms, missing
+from exo.validate.versions import VERSIONS, Version
 
 from broken import macho
-from broken.parts import INDEX, XML, Parts, plain
+from broken.parts import INDEX, XML, Parts, moving3, plain
 
 FOLDER = "binaries/linux64"
 
@@ -69,6 +72,31 @@ def test_a_mach_o_library_without_export_trie_exports_by_its_symbol_table(tmp_pa
     assert (finding.rule, finding.value) == ("binary-exports", "without fmi2DoStep")
     # It is loaded all the same: the library of this machine is another one.
     assert report.skipped == ()
+
+
+@pytest.mark.parametrize("version", VERSIONS.values(), ids=lambda version: version.name)
+def test_the_functions_of_a_version_are_those_of_the_standard_s_header(version: Version) -> None:
+    header = Path(fmpy.__file__).parent / "c-code" / f"{version.prefix}Functions.h"
+    declared = re.findall(r"^\s*FMI\d_Export \w+TYPE\s+(fmi\d\w+);", header.read_text(encoding="utf-8"), re.MULTILINE)
+    known = [name for names in version.functions.values() for name in names]
+    assert sorted(known) == sorted(declared)
+
+
+def test_a_library_may_serve_both_versions(tmp_path: Path) -> None:
+    assert found(moving3(tmp_path, "-DTWO"), tmp_path, run=False) == []
+
+
+def test_a_platform_of_fmi_3_that_is_not_known_by_its_file_is_no_finding(tmp_path: Path) -> None:
+    parts = moving3(tmp_path)
+    parts.entries["binaries/riscv64-linux/Moving.so"] = b"x"
+    assert found(parts, tmp_path, run=False) == []
+
+
+def test_an_array_may_have_one_start_value_for_all_elements_and_a_size_of_its_own(tmp_path: Path) -> None:
+    parts = moving3(tmp_path)
+    parts.edit("ModelVariables/Float64[@name='x']/Dimension", remove=("valueReference",), start="2")
+    parts.edit("ModelVariables/Float64[@name='x']", start="0")
+    assert found(parts, tmp_path) == []
 
 
 def test_an_empty_folder_beside_a_good_library_is_as_if_it_were_not_there(tmp_path: Path) -> None:

@@ -303,15 +303,25 @@ def validate_fmus(
     fmus: Annotated[list[Path] | None, typer.Argument(metavar="FMU…")] = None,
     *,
     strict: Annotated[bool, typer.Option(help="Warnings, too, are exit code 1.")] = False,
-    load: Annotated[bool, typer.Option(help="Run the library of this machine in a process of its own.")] = True,
+    load: Annotated[
+        bool | None,
+        typer.Option(
+            help="--load: ask the dynamic rules, too (states, reset, two instances, step sizes, …). --no-load: run no "
+            "library. Without either, the library of this machine is run through one step.",
+            show_default=False,
+        ),
+    ] = None,
     platforms: Annotated[
         list[str] | None, typer.Option("--platform", help="A folder that binaries/ must have; may be repeated.")
     ] = None,
     max_glibc: Annotated[str | None, typer.Option(help="Newest glibc that Linux libraries may need, as 2.17.")] = None,
-    as_json: Annotated[bool, typer.Option("--json", help="Findings as JSON.")] = False,
+    as_json: Annotated[bool, typer.Option("--json", help="Findings and verdicts as JSON.")] = False,
     rules: Annotated[bool, typer.Option("--rules", help="Lists the rules instead.")] = False,
 ) -> None:
-    """Validates FMI 2.0 co-simulation FMUs and SSP archives; exit code 1 on an error."""
+    """Validates FMI 2.0 and 3.0 FMUs for co-simulation, and SSP archives; exit code 1 on an error.
+
+    Of FMI 3.0, scheduled execution as well. What runs of an FMU runs in processes of its own.
+    """
     if rules:
         _print_rules()
         return
@@ -320,7 +330,8 @@ def validate_fmus(
             raise FmuError("no FMU is given: exo validate FMU…, or --rules")
         if max_glibc is not None and not re.fullmatch(r"[0-9]+(\.[0-9]+)+", max_glibc):
             raise FmuError(f"--max-glibc {max_glibc}: expected a version, as 2.17")
-        reports = [validate.check(f, run=load, platforms=tuple(platforms or ()), max_glibc=max_glibc) for f in fmus]
+        how = {"run": load is not False, "dynamic": load is True}
+        reports = [validate.check(f, **how, platforms=tuple(platforms or ()), max_glibc=max_glibc) for f in fmus]
     if as_json:
         typer.echo(json.dumps([report.as_json(strict=strict) for report in reports], indent=2, ensure_ascii=False))
     else:
@@ -427,9 +438,11 @@ def identify_tool(
 
 
 def _print_rules() -> None:
-    table = screen.table("rule", "severity", "holds when")
-    for rule in (*validate.RULES.values(), *validate.ssp.RULES.values()):
-        screen.add(table, rule.id, rule.severity, rule.text)
+    table = screen.table("rule", "severity", "FMI", "holds when")
+    for rule in validate.RULES.values():
+        screen.add(table, rule.id, rule.severity, rule.only or "2.0, 3.0", rule.text)
+    for rule in validate.ssp.RULES.values():
+        screen.add(table, rule.id, rule.severity, "SSP", rule.text)
     screen.print_table(table)
 
 
@@ -447,6 +460,8 @@ def _print_report(report: validate.Report) -> None:
         console.print(f"{report.path}: not checked: {sentence}", markup=False)
     for sentence in report.replayed:
         console.print(f"{report.path}: {sentence}", markup=False)
+    for verdict in report.verdicts:
+        console.print(f"{report.path}: {verdict}", markup=False)
     if not report.findings:
         console.print(f"{report.path}: No problems found.", markup=False)
 

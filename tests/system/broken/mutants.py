@@ -205,7 +205,7 @@ TEXT = [
     Mutant("xml-encoding", "UTF-16", utf16),
     Mutant("xml-encoding", "Latin-1", latin1),
     Mutant("xml-root", "another root", edit(".", tag="modelDescription"), fmpy=True),
-    Mutant("xml-version", "FMI 3.0", edit(".", fmiVersion="3.0"), fmpy=True),
+    Mutant("xml-version", "FMI 1.0", edit(".", fmiVersion="1.0"), fmpy=True),
     Mutant("fmpy", "an output is missing in Outputs", lambda p: p.drop(f"{OUTPUTS}/Unknown"), fmpy=True),
     Mutant("fmpy", "a misspelt capability", edit("CoSimulation", canRunAsynchronously="false"), fmpy=True),
 ]
@@ -223,6 +223,7 @@ HEAD = [
     Mutant("head-log-categories", "one twice", insert("LogCategories", '<Category name="logAll"/>')),
 ]
 VARIABLES = [
+    Mutant("variable-name-once", "two of one name", edit(variable("D_n"), name="M_n"), fmpy=True),
     Mutant("variable-case", "m_n beside M_n", edit(variable("D_n"), name="m_n")),
     Mutant("variable-name", "a blank at the end", edit(variable("D_n"), name="D_n "), fmpy=True),
     Mutant("variable-array", "no second element", edit(variable("q[2]"), name="q2"), base=ARM),

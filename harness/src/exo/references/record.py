@@ -13,10 +13,10 @@ from numpy.typing import NDArray
 from exo import scenario as scenarios
 from exo.errors import ScenarioError, close_matches
 from exo.fmu import Archive, Instance
+from exo.loop import Part as Component
 from exo.recording import Recording
 from exo.references.recipes import Run
 from exo.scenario import PROFILE, Value
-from exo.simulate import Part as Component
 from exo.simulate import Plan, plan, simulate
 from exo.systems import closed
 
@@ -149,7 +149,7 @@ def play(
 ) -> Columns:
     """One FMU alone, inputs set at the beginning of each step: outputs at all `steps` + 1 communication points."""
     with Instance(archive, "reference") as instance:
-        part = Component(instance, list(stimuli), steps)
+        part = Component(instance, inputs=list(stimuli), outputs=archive.names("output"), steps=steps)
         for name, column in stimuli.items():
             kind, index = part.input(name)
             part.u[kind][:, index] = column

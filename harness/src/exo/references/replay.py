@@ -21,7 +21,7 @@ from exo.validate.load import host_platforms, missing
 from exo.validate.rule import Finding
 from exo.validate.workspace import workspace
 
-PLAYER = Path(__file__).with_name("player.py")
+PLAYER = "exo.references.player"
 #: Where neither experiment nor description say how long it is and in what steps (s).
 STOP, STEPS = 1.0, 1000
 #: The name of what no experiments file has named.

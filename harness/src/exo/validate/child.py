@@ -1,8 +1,9 @@
 """A process of its own for foreign machine code: what it does to itself, the checker survives and reports.
 
-`run` starts the process and gives it a task as JSON; the process appends one JSON line for each fact to a file, so that
-all facts from before a crash are kept. The last fact says that the task is done, as an exit code of 0 does not: foreign
-code can call exit. The standard streams belong to the FMU: whatever comes there is a fact, too, up to a limit.
+`run` starts the process (`exo.probe`) and gives it a task as JSON; the process appends one JSON line for each fact to
+a file, so that all facts from before a crash are kept. The last fact says that the task is done, as an exit code of 0
+does not: foreign code can call exit. The standard streams belong to the FMU: whatever comes there is a fact, too, up to
+a limit.
 """
 
 import json
@@ -23,8 +24,6 @@ TIMEOUT_S = 60.0
 OUTPUT_LIMIT = 1 << 16
 #: For what is left in the pipe once the process has ended; a process that it left behind may hold the pipe open.
 DRAIN_S = 1.0
-#: Run by its path: as a module it would import the whole package first.
-PROBE = Path(__file__).with_name("probe.py")
 
 
 @dataclass(frozen=True)
@@ -71,12 +70,12 @@ class _Streams(Thread):
         return f"{kept}\n(cut after {OUTPUT_LIMIT} bytes)" if self.cut else kept
 
 
-def run(task: dict[str, Any], program: Path = PROBE) -> Answer:
-    """Runs `probe.py`, or another program like it, on the task; no process and no file of it is left."""
+def run(task: dict[str, Any], program: str = "exo.probe") -> Answer:
+    """Runs `exo.probe`, or another module like it, on the task; no process and no file of it is left."""
     with workspace() as folder:
         facts = folder / "facts.jsonl"
         process = subprocess.Popen(
-            [sys.executable, "-X", "utf8", "-P", str(program), str(facts)],
+            [sys.executable, "-X", "utf8", "-P", "-m", program, str(facts)],
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT,

@@ -23,5 +23,6 @@ def findings(description: Description) -> Iterator[Finding]:
     if description.root.get("variableNamingConvention") != "structured":
         return
     for variable in description.variables:
-        if not NAME.fullmatch(variable.name):
-            yield STRUCTURED.at(variable.where, repr(variable.name), "a name like body.joint[2].'x y' or der(body.x,2)")
+        for named in variable.named:
+            if not NAME.fullmatch(named.name):
+                yield STRUCTURED.at(named.where, repr(named.name), "a name like body.joint[2].'x y' or der(body.x,2)")

@@ -36,6 +36,8 @@ class Rule:
     severity: Severity
     #: One sentence, true of a good FMU.
     text: str
+    #: The only version of FMI that it judges; empty for both.
+    only: str = ""
 
     def at(self, where: str, value: object, expected: str) -> Finding:
         """The finding that this rule is broken."""
@@ -46,14 +48,14 @@ class Rule:
 RULES: dict[str, Rule] = {}
 
 
-def error(rule_id: str, text: str) -> Rule:
-    """Declares a rule whose violation is an error."""
-    return _declare(Rule(rule_id, Severity.ERROR, text))
+def error(rule_id: str, text: str, *, only: str = "") -> Rule:
+    """Declares a rule whose violation is an error; `only`: the one version of FMI that it judges."""
+    return _declare(Rule(rule_id, Severity.ERROR, text, only))
 
 
-def warning(rule_id: str, text: str) -> Rule:
+def warning(rule_id: str, text: str, *, only: str = "") -> Rule:
     """Declares a rule whose violation is a warning."""
-    return _declare(Rule(rule_id, Severity.WARNING, text))
+    return _declare(Rule(rule_id, Severity.WARNING, text, only))
 
 
 def printable(text: str, limit: int = 300) -> str:

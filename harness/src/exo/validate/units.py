@@ -7,11 +7,13 @@ from math import isclose, pi
 from lxml import etree
 
 from exo.validate.archive import DESCRIPTION
-from exo.validate.description import Description, integers, number, place
+from exo.validate.description import Description, place
 from exo.validate.rule import Finding, Rule, error, warning
 from exo.validate.si import BASE, Meaning, meaning, written
+from exo.validate.variable import Variable, integers, number
+from exo.validate.versions import FLOATS, FMI2
 
-MISSING = warning("unit-missing", "every Real has a unit, 1 if it has no dimension")
+MISSING = warning("unit-missing", "every floating-point variable has a unit, 1 if it has no dimension")
 NAMES = error("unit-name", "units have names, and no two the same; nor have the display units of one unit")
 UNDEFINED = error("unit-undefined", "units of types are defined")
 UNUSED = warning("unit-unused", "every unit is used")
@@ -36,11 +38,10 @@ def findings(description: Description) -> Iterator[Finding]:
     known = frozenset(defined)
     used = {variable.type.get("unit", "") for variable in description.variables}
     for variable in description.variables:
-        if variable.kind == "Real" and "unit" not in variable.type:
-            yield MISSING.at(variable.where, "Real without unit", "a unit, or 1")
+        if variable.kind in FLOATS and "unit" not in variable.type and not _is_time(variable):
+            yield MISSING.at(variable.where, f"{variable.kind} without unit", "a unit, or 1")
     for name, declared in description.types.items():
-        unit_name = declared.kinds.get("Real", {}).get("unit")
-        if unit_name is not None:
+        for unit_name in (given["unit"] for given in declared.kinds.values() if "unit" in given):
             used.add(unit_name)
             if unit_name not in known:
                 yield UNDEFINED.at(place(declared.element, f"type {name}"), unit_name, "a unit of UnitDefinitions")
@@ -51,6 +52,11 @@ def findings(description: Description) -> Iterator[Finding]:
             yield UNUSED.at(where, "used by no variable and no type", "units in use")
         yield from _base(where, name, unit)
         yield from _display(where, name, unit)
+
+
+def _is_time(variable: Variable) -> bool:
+    """The independent variable of FMI 3.0, which every FMU must have: in seconds, unless a unit says otherwise."""
+    return variable.version is not FMI2 and variable.causality == "independent"
 
 
 def _base(where: str, name: str, unit: etree._Element) -> Iterator[Finding]:
