@@ -175,6 +175,18 @@ def test_a_replay_meets_every_result_to_a_thousandth_of_the_tolerance(fmu: Path)
     assert all(one.difference <= 1e-3 * one.allowed for one in answer.outcomes)
 
 
+@pytest.mark.parametrize("name", NAMES)
+def test_the_twin_of_fmi_3_meets_the_same_results_with_the_same_files(name: str, fmu_dir: Path) -> None:
+    """Its vectors are told element by element, as the scalars of FMI 2.0."""
+    path = fmu_dir / "fmi3" / f"{name}.fmu"
+    assert inside(path) == inside(fmu_dir / f"{name}.fmu")
+    answer = replay(path)
+    assert [str(finding) for finding in answer.findings] == []
+    assert answer.skipped == []
+    assert len(answer.outcomes) == len(replay(fmu_dir / f"{name}.fmu").outcomes)
+    assert all(one.difference <= 1e-3 * one.allowed for one in answer.outcomes)
+
+
 @pytest.mark.parametrize("name", ["Testbed", "TestbedController", "ExoskeletonArm"])
 def test_an_importer_that_knows_fmpy_alone_gets_the_results(name: str, fmu_dir: Path, tmp_path: Path) -> None:
     """fmpy reads the CSV files and the parameter set, sets the inputs in its own way and simulates."""

@@ -207,6 +207,20 @@ def test_an_element_of_a_matrix_is_found_in_c_s_order() -> None:
     assert variables.place("A[3,1]", {"A": Matrix()}) is None
 
 
+def test_a_scalar_of_an_array_of_structures_is_an_element_of_a_vector() -> None:
+    """`segment[2].axis` of FMI 2.0 is the second element of `segment.axis` in FMI 3.0."""
+
+    class Axis:
+        name, shape, type = "segment.axis", (16,), "Int32"
+
+    known = {"segment.axis": Axis()}
+    meant = variables.place("segment[2].axis", known)
+    assert meant is not None
+    assert (meant.variable.name, meant.element) == ("segment.axis", 1)
+    for name in ("segment[17].axis", "segment[0].axis", "segment[1].kind", "segment[1].axis[1]"):
+        assert variables.place(name, known) is None, name
+
+
 def stimulus(kind: str, held: bool, time: list[float], values: list[float]) -> Stimulus:
     """One variable of one value."""
     task = {"values": [[value] for value in values], "reference": 1, "held": held, "kind": kind}

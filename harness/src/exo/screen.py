@@ -24,6 +24,8 @@ from exo.verdict import Result
 #: More than any table has.
 ENDLESS = 100_000
 ORDER = ("fail", "info", "pass")
+#: Findings of one rule that `exo references` prints.
+SHOWN = 5
 COLORS = {"pass": "green", "fail": "bold red", "info": "blue"}
 #: The shell's codes of a command that Ctrl-C, that a pipe's other end and that SIGTERM have ended.
 INTERRUPTED, BROKEN_PIPE, TERMINATED = 130, 141, 143
@@ -109,8 +111,12 @@ def number(value: float | None) -> str:
 
 def print_replay(path: Path, answer: Replay) -> None:
     """What is wrong, then by how much each output differs."""
-    for finding in answer.findings:
-        console.print(f"{path}: {finding}", markup=False)
+    for rule in dict.fromkeys(finding.rule for finding in answer.findings):
+        broken = [finding for finding in answer.findings if finding.rule == rule]
+        for finding in broken[:SHOWN]:
+            console.print(f"{path}: {finding}", markup=False)
+        if len(broken) > SHOWN:
+            console.print(f"{path}: {len(broken) - SHOWN} more of {rule}: see --json", markup=False)
     for sentence in answer.skipped:
         console.print(f"{path}: not checked: {sentence}", markup=False)
     if not answer.outcomes:

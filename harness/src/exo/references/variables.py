@@ -1,8 +1,9 @@
 """Names of columns and parameters as variables of an FMU, 2.0 or 3.0.
 
 A vector of FMI 3.0 has one name: a column of that name has all its elements in each cell, with blanks between them, as
-fmpy and Reference-FMUs write it. A column `q[2]` is one element, so that what was written for the scalars of an FMI 2.0
-archive also fits the vectors of its twin. Neither layered standard nor format says which of the two it is.
+fmpy and Reference-FMUs write it. A column `q[2]` is one element of `q`, and `segment[2].axis` one of `segment.axis`: so
+what was written for the scalars of an FMI 2.0 archive also fits the vectors of its twin. Neither the layered standard
+nor the format says which of the two it is.
 """
 
 import re
@@ -12,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-ELEMENT = re.compile(r"(.+)\[(\d{1,9}(?:,\d{1,9})*)\]")
+INDICES = re.compile(r"\[(\d{1,9}(?:,\d{1,9})*)\]")
 REALS = ("Real", "Float32", "Float64")
 INTEGERS = ("Integer", "Int8", "UInt8", "Int16", "UInt16", "Int32", "UInt32", "Int64", "UInt64", "Enumeration")
 NUMBERS = (*REALS, *INTEGERS, "Boolean")
@@ -42,11 +43,10 @@ def place(name: str, variables: Mapping[str, Any]) -> Place | None:
     """What a name means; None where the FMU has nothing of this name."""
     if name in variables:
         return Place(variables[name], None)
-    found = ELEMENT.fullmatch(name)
-    if found is None or found[1] not in variables:
+    variable = variables.get(INDICES.sub("", name))
+    if variable is None:
         return None
-    variable = variables[found[1]]
-    indices = [int(number) - 1 for number in found[2].split(",")]
+    indices = [int(number) - 1 for numbers in INDICES.findall(name) for number in numbers.split(",")]
     shape = tuple(variable.shape or ())
     if len(indices) != len(shape) or not all(0 <= i < n for i, n in zip(indices, shape, strict=True)):
         return None
