@@ -1,10 +1,10 @@
 //! A stranger's archives: for this machine, or for many platforms.
 
-use crate::compile::{Inspected, Plan};
 use crate::facts::Facts;
 use crate::functions;
 use crate::inspect::inspect;
 use crate::pack::{Library, Parts, replace};
+use crate::plan::{Inspected, Plan};
 use crate::platform::Platform;
 use crate::process::{Failure, Outcome, at};
 use crate::subject::Subject;

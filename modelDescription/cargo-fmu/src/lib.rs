@@ -11,7 +11,7 @@
 //! | [`check`] | the validator |
 //! | [`workspace`] | the cargo workspace whose models are built |
 //! | [`mod@cdylib`] | a target of cargo that becomes a shared library with one model |
-//! | [`compile`] | libraries, for this machine or for one platform with its tools |
+//! | [`compile`], [`plan`] | libraries for this machine, or for one platform with its tools |
 //! | [`trace`] | what of this machine must not be in them |
 //! | [`mod@platform`] | the table of the platforms |
 //! | [`debian`], [`toolchain`] | compilers, linkers, emulators, fetched into a folder of their own |
@@ -34,6 +34,7 @@ pub mod interface;
 pub mod linked;
 pub mod new;
 pub mod pack;
+pub mod plan;
 pub mod platform;
 pub mod process;
 pub mod runtime;

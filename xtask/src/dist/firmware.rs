@@ -5,8 +5,8 @@ use crate::build::remapping;
 use crate::law::pack::{Binutils, pack};
 use crate::law::{self, PRECISIONS, Precision};
 use crate::process::{Failure, Outcome, answer, at, program, root, run};
-use cargo_fmu::compile;
 use cargo_fmu::pack::replace;
+use cargo_fmu::plan;
 use cargo_fmu::toolchain::{Toolchains, with_libraries};
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -53,10 +53,7 @@ pub fn build(tools: &Toolchains) -> Outcome<Result<String, String>> {
             .arg(folder())
             .env("RUSTC", rust.join("usr/bin/rustc"))
             .env("RUSTC_BOOTSTRAP", "1")
-            .env(
-                "CARGO_ENCODED_RUSTFLAGS",
-                remapping(&compile::renamed(&rust))?,
-            ))?;
+            .env("CARGO_ENCODED_RUSTFLAGS", remapping(&plan::renamed(&rust))?))?;
         let library = library(precision);
         let parts = Binutils::unpacked(&binutils, "arm-none-eabi-");
         pack(&made(precision), precision, &parts, &library)?;

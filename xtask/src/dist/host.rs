@@ -2,8 +2,8 @@
 
 use crate::catalogue::tables;
 use crate::process::{Failure, Outcome, at, program, root};
-use cargo_fmu::compile::{Built, Library};
 use cargo_fmu::debian::quietly;
+use cargo_fmu::plan::{Built, Library};
 use cargo_fmu::platform::{Platform, Runner};
 use cargo_fmu::toolchain::Toolchains;
 use std::collections::BTreeMap;

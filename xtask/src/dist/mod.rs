@@ -23,7 +23,7 @@ use crate::process::{Failure, Outcome, at, root, run, workspace};
 use crate::schedule;
 use crate::venv::{Packages, Venv};
 use cargo_fmu::cdylib::Cdylib;
-use cargo_fmu::compile::{Built, Inspected, Plan};
+use cargo_fmu::plan::{Built, Inspected, Plan};
 use cargo_fmu::platform::{GLIBC, PLATFORMS, Platform, Runner};
 use cargo_fmu::toolchain::Toolchains;
 pub use cargo_fmu::toolchain::with_libraries;
