@@ -13,7 +13,7 @@ from exo.validate.load import host_platforms, missing
 from exo.validate.versions import VERSIONS, Version
 
 from broken import macho
-from broken.parts import INDEX, XML, Parts, moving3, plain
+from broken.parts import INDEX, PNG, TERMINALS, XML, Parts, moving3, plain
 
 FOLDER = "binaries/linux64"
 
@@ -84,6 +84,17 @@ def test_the_functions_of_a_version_are_those_of_the_standard_s_header(version: 
 
 def test_a_library_may_serve_both_versions(tmp_path: Path) -> None:
     assert found(moving3(tmp_path, "-DTWO"), tmp_path, run=False) == []
+
+
+@pytest.mark.usefixtures("unparsed")
+def test_terminals_of_an_fmi_2_fmu_are_judged_too(tmp_path: Path) -> None:
+    """FMI 2.0 refers to FMI 3.0 for them; their version is that of the schema."""
+    parts = plain(tmp_path)
+    terminals = moving3(tmp_path).entries[TERMINALS].replace(b'"x"', b'"y"').replace(b'"x_mm"', b'"y"')
+    parts.entries |= {TERMINALS: terminals, "terminalsAndIcons/flange.png": PNG}
+    assert found(parts, tmp_path, run=False) == []
+    parts.replace(TERMINALS, b'"y"', b'"z"')
+    assert found(parts, tmp_path, run=False) == ["terminals-variable"]
 
 
 def test_a_platform_of_fmi_3_that_is_not_known_by_its_file_is_no_finding(tmp_path: Path) -> None:

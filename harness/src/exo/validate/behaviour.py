@@ -124,7 +124,7 @@ def _judged(trial: Trial, answer: child.Answer, where: str) -> tuple[list[Findin
     found = [trial.rule.at(where, *wrong) for wrong in answer.facts("wrong")]
     # What happens after a call that the standard does not allow is nobody's fault but the caller's.
     if answer.ended and not found and not answer.facts("beyond"):
-        found = [trial.rule.at(where, f"{answer.last_call}: {answer.ended}", "a run to its end")]
+        found = [trial.rule.at(where, answer.end, "a run to its end")]
     if found:
         return found, Verdict(trial.rule.id, "failed", found[0].value)
     for reason in answer.facts("skip"):

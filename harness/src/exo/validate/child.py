@@ -46,6 +46,12 @@ class Answer:
         calls = self.facts("call")
         return str(calls[-1]) if calls else "loading the library"
 
+    @property
+    def end(self) -> str:
+        """Where and how it ended before its time; of an exit code also what it said last."""
+        reason = self.output.strip().splitlines()[-1:] if self.ended.startswith("ended with") else []
+        return "; ".join([f"{self.last_call}: {self.ended}", *reason])
+
 
 class _Streams(Thread):
     """Reads a pipe to its end and keeps the beginning."""

@@ -102,8 +102,7 @@ def findings(
 
 def _calls(description: Description, answer: Answer, where: str) -> Iterator[Finding]:
     if answer.ended:
-        reason = answer.output.strip().splitlines()[-1:] if answer.ended.startswith("ended with") else []
-        yield CRASH.at(where, "; ".join([f"{answer.last_call}: {answer.ended}", *reason]), "a run to its end")
+        yield CRASH.at(where, answer.end, "a run to its end")
     prefix, token = description.version.prefix, description.version.token
     for fact, expected in (("version", description.version.name), ("types", "default")):
         for value in answer.facts(fact):
