@@ -36,7 +36,7 @@ mod tests {
                 .count()
         };
         assert_eq!(of("fmi2"), 34, "FMI 2.0.5, fmi2Functions.h");
-        assert_eq!(of("fmi3"), 75, "FMI 3.0.2, fmi3Functions.h");
+        assert_eq!(of("fmi3"), 75, "FMI 3.0.3, fmi3Functions.h");
         assert_eq!(names.len(), 34 + 75);
     }
 }
