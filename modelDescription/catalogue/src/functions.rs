@@ -27,9 +27,14 @@ mod tests {
         let mut names = super::exported();
         names.sort_unstable();
         names.dedup();
-        let of = |version| names.iter().filter(|name| name.starts_with(version)).count();
+        let of = |version| {
+            names
+                .iter()
+                .filter(|name| name.starts_with(version))
+                .count()
+        };
         assert_eq!(of("fmi2"), 34, "FMI 2.0.5, fmi2Functions.h");
-        assert_eq!(of("fmi3"), 75, "FMI 3.0.2, fmi3Functions.h");
+        assert_eq!(of("fmi3"), 75, "FMI 3.0.3, fmi3Functions.h");
         assert_eq!(names.len(), 34 + 75);
     }
 }

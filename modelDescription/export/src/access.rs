@@ -242,9 +242,7 @@ impl<M: Model> Instance<M> {
     fn without_row<K: Kind>(&self, reference: ValueReference) -> Result<K::Value, Failure> {
         let (name, value) = match Provenance::find(reference) {
             Some(of) => (of.name(), K::Value::of_text(text(of))),
-            None if reference == TIME && !K::SCALAR => {
-                ("time", K::Value::of_time(self.time()))
-            }
+            None if reference == TIME && !K::SCALAR => ("time", K::Value::of_time(self.time())),
             None => return unknown::<_, M>(reference),
         };
         value.map_or_else(|| another_type::<_, K>(name, reference), Ok)

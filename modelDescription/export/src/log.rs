@@ -115,7 +115,7 @@ impl<'a> Log<'a> {
         let Some((sink, instance_name)) = self.sink else {
             return;
         };
-        // FMI 3.0.2, section 2.2.4: errors are logged regardless of the settings.
+        // FMI 3.0.3, section 2.2.4: errors are logged regardless of the settings.
         let always = category == Category::Error && matches!(sink, Sink::Fmi3(_));
         if !always && !self.enabled.has(category) {
             return;

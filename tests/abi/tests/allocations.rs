@@ -219,11 +219,17 @@ fn of_a_run_by_fmi_3<M: Model>(scheduled: bool) -> u64 {
             }
         }
     });
-    assert!(
-        got.iter().any(|value| *value != 0.0),
-        "{}",
-        M::DESCRIPTION.name
-    );
+    // What the models do in a step is that of the test above; here it is enough that the steps were made.
+    let (time, mut reached) = (0xFFFF_FFFF, 0.0);
+    // SAFETY: pointers to locals; the component is live.
+    let status = unsafe {
+        let get = F::fmi3GetFloat64;
+        fmi3::get::<M, fmi3::kind::Float64>(c, get, &raw const time, 1, &raw mut reached, 1)
+    };
+    assert_eq!(status, Status::Ok);
+    let begin = if scheduled { period } else { 0.0 };
+    let expected = 1000.0 * period - begin;
+    assert!((reached - expected).abs() < 1e-9, "{reached} {expected}");
     // SAFETY: the component is live and not used again.
     unsafe { f::free_instance::<M>(c) };
     n

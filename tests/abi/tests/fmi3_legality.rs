@@ -67,7 +67,11 @@ fn every_function_in_every_state_does_what_the_standard_says_and_the_instance_go
                         assert_eq!(status, Status::OK, "{cell}: {log:?}");
                         let told = log.iter().any(|m| m.category == "logStatusError");
                         assert!(!told, "{cell}: {log:?}");
-                        if !CHANGE.iter().any(|change| function.starts_with(change)) {
+                        // Initial values are computed when they are asked for.
+                        let computes =
+                            state == State::InitializationMode && function.starts_with("fmi3Get");
+                        let changes = CHANGE.iter().any(|change| function.starts_with(change));
+                        if !changes && !computes {
                             assert_eq!(instance.bytes(), before, "{cell}");
                         }
                     }

@@ -4,7 +4,7 @@
 use abi::Status;
 use abi::fmi3::{Fmu, Instance, Interface, Type, Value, mirror};
 
-/// Sets the k-th inputs: each Float64 moves on a course of its own, and what is true or false is true.
+/// Sets the k-th inputs: each Float64 moves on a course of its own, what is true or false is true, and what counts is 1.
 fn load(fmu: &Fmu, k: u32, instance: &Instance, also: Option<&abi::Instance>) {
     let inputs = fmu.rows.iter().filter(|row| row.causality() == "input");
     for (i, row) in inputs.filter(|row| row.name != "panic").enumerate() {
@@ -14,7 +14,8 @@ fn load(fmu: &Fmu, k: u32, instance: &Instance, also: Option<&abi::Instance>) {
                     let phase = f64::from(k) * (0.02 + 0.003 * i as f64) + element as f64;
                     Value::Number(0.2 * phase.sin())
                 }
-                _ => Value::Truth(1),
+                Type::Boolean => Value::Truth(1),
+                _ => Value::Integer(1),
             })
             .collect();
         let status = instance.write(row, &values);
@@ -29,7 +30,8 @@ fn load(fmu: &Fmu, k: u32, instance: &Instance, also: Option<&abi::Instance>) {
         for (value, element) in values.iter().zip(&row.elements) {
             let status = match value {
                 Value::Number(value) => also.set_real(&[element.reference], &[*value]),
-                _ => also.set_boolean(&[element.reference], &[1]),
+                Value::Truth(_) => also.set_boolean(&[element.reference], &[1]),
+                _ => also.set_integer(&[element.reference], &[1]),
             };
             assert_eq!(status, Status::OK, "{}", element.name);
         }

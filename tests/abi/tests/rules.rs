@@ -72,6 +72,9 @@ fn every_deviation_from_the_table_is_in_the_document_with_its_reason() {
     for (what, reason) in abi::standard::DEVIATIONS_FROM_THE_TEXT {
         assert!(lines(&[what, reason]), "{what}");
     }
+    for (what, reason) in abi::fmi3::standard::DEVIATIONS_FROM_THE_TEXT {
+        assert!(lines(&[what, reason]), "{what}");
+    }
     for (what, reason) in abi::rights::DEVIATIONS {
         let before = what == "get before Initialization Mode"; // the same as that of the functions above
         assert!(

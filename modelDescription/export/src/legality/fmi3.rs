@@ -1,4 +1,4 @@
-//! The table of FMI 3.0.2: what the state descriptions of sections 2.3, 4.2 and 5.2 allow, as data.
+//! The table of FMI 3.0.3: what the state descriptions of sections 2.3, 4.2 and 5.2 allow, as data.
 //!
 //! States of the standard that no instance here enters, with the functions that only they have (an empty row; such a call
 //! is refused with the capability that is missing):

@@ -66,7 +66,7 @@ impl Pair {
     fn play(
         &mut self,
         call: &Call,
-        slots: &mut [Option<Vec<u8>>; SLOTS],
+        slots: &mut [Option<(Vec<u8>, f64)>; SLOTS],
     ) -> Result<(Status, Status), String> {
         let statuses = match call {
             Call::Enter(start) => {
@@ -100,16 +100,18 @@ impl Pair {
                 (write(&self.two, row, values), self.three.write(row, values))
             }
             Call::Save(slot, by_three) => {
-                slots[*slot] = Some(if *by_three {
+                let bytes = if *by_three {
                     self.three.bytes()
                 } else {
                     self.two.bytes()
-                });
+                };
+                slots[*slot] = Some((bytes, self.time));
                 (Status::OK, Status::OK)
             }
             Call::Restore(slot) => match &slots[*slot] {
                 None => (Status::OK, Status::OK),
-                Some(bytes) => {
+                Some((bytes, time)) => {
+                    self.time = *time;
                     let mut state = self
                         .two
                         .deserialize(bytes)
@@ -120,8 +122,11 @@ impl Pair {
                 }
             },
         };
-        if let (Call::Step(t, h), Status::OK) = (call, statuses.0) {
-            self.time = t + h;
+        match (call, statuses.0) {
+            (Call::Step(t, h), Status::OK) => self.time = t + h,
+            (Call::Enter(start), Status::OK) => self.time = *start,
+            (Call::Reset, Status::OK) => self.time = 0.0,
+            _ => {}
         }
         Ok(statuses)
     }
@@ -218,7 +223,7 @@ fn values(dice: &mut Dice, row: &Row) -> Vec<Value> {
 pub fn play(fmu: &Fmu, calls: u64, seed: u64) -> Result<Played, String> {
     let mut dice = Dice(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1);
     let mut pairs = [Pair::new(fmu), Pair::new(fmu)];
-    let mut slots: [Option<Vec<u8>>; SLOTS] = [const { None }; SLOTS];
+    let mut slots: [Option<(Vec<u8>, f64)>; SLOTS] = [const { None }; SLOTS];
     let mut played = Played::default();
     let mut journal: Vec<(usize, Call)> = Vec::new();
     for k in 0..calls {
@@ -259,8 +264,16 @@ pub fn play(fmu: &Fmu, calls: u64, seed: u64) -> Result<Played, String> {
                 "{two:?} by FMI 2.0, {three:?} by FMI 3.0, {logs:?}"
             )));
         }
-        if pair.two.bytes() != pair.three.bytes() {
-            return Err(report("another state".into()));
+        let (state, also) = (pair.two.bytes(), pair.three.bytes());
+        if state != also {
+            let at = state
+                .iter()
+                .zip(&also)
+                .position(|(one, other)| one != other);
+            let logs = (pair.two.messages(), pair.three.messages());
+            return Err(report(format!(
+                "the states differ at byte {at:?}, {logs:?}"
+            )));
         }
         played.calls += 1;
         played.accepted += u64::from(two == Status::OK);
@@ -274,9 +287,6 @@ pub fn play(fmu: &Fmu, calls: u64, seed: u64) -> Result<Played, String> {
             told.iter()
                 .any(|message| message.text.contains("needs fmi2Reset")),
         );
-        if matches!(call, Call::Restore(_) | Call::Enter(_)) {
-            pair.time = pair.three.time();
-        }
     }
     Ok(played)
 }

@@ -1,4 +1,4 @@
-//! Which call FMI 3.0.2 allows in which state (sections 2.3, 3.2, 4.2 and 5.2), and where these FMUs differ from it on
+//! Which call FMI 3.0.3 allows in which state (sections 2.3, 3.2, 4.2 and 5.2), and where these FMUs differ from it on
 //! purpose.
 
 /// Columns of [`TABLE`]. An instance is only ever in one of those that [`State`] names: see [`UNREACHABLE`].
