@@ -242,6 +242,8 @@ fn the_document_says_its_version_and_names_variables_as_it_does() {
             .map(Standard::title)
             .collect();
         assert_eq!(shown, BTreeSet::from([standard.title()]));
+        let head = page.split_once("<nav").expect("contents").0;
+        assert!(head.contains(standard.title()), "before anything else");
     }
     for part in [
         "<td><code>u</code><small>array of 3</small></td><td data-of=\"Type\">Float64, N</td>",
