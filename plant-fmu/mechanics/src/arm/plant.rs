@@ -9,6 +9,7 @@ use super::guess::Guess;
 use super::parameters::{Parameters, Start};
 use super::problem::FACINGS;
 use super::rigid_body::RigidBody;
+use super::servo::{Command, Drives};
 use super::solver;
 use super::state::{Configuration, Inputs, Place, Shown, State};
 use super::surface::TooStiff;
@@ -75,12 +76,37 @@ impl Arm {
         }
     }
 
-    /// Runs `n` substeps of `dt` (s) with `inputs` held.
-    pub fn advance(&mut self, inputs: &Inputs, n: u32, dt: f64) {
-        let drive = Drive::new(self.parameters.drive_cutoff, dt);
+    /// Runs `n` substeps of `dt` (s) with `inputs` held. Returns the sum of the torques (N·m) that arrived at the joints in
+    /// each.
+    pub fn advance(&mut self, inputs: &Inputs, n: u32, dt: f64) -> Vector3<f64> {
+        self.advance_driven(None, inputs, n, dt)
+    }
+
+    /// The same; where there are `drives`, each substep is a cycle of theirs, and what they ask for takes the place of
+    /// `inputs.tau_a`.
+    pub fn advance_driven(
+        &mut self,
+        drives: Option<&Drives>,
+        inputs: &Inputs,
+        n: u32,
+        dt: f64,
+    ) -> Vector3<f64> {
+        let lag = Drive::new(self.parameters.drive_cutoff, dt);
+        let mut inputs = *inputs;
+        let mut sum = Vector3::zeros();
         for _ in 0..n {
-            self.substep(&drive, inputs, dt);
+            if let Some(drives) = drives {
+                inputs.tau_a = drives.torque(&self.state.q, &self.state.dq);
+            }
+            self.substep(&lag, &inputs, dt);
+            sum += self.state.tau;
         }
+        sum
+    }
+
+    /// The drives with their `command` in a step that begins now; `None`: they take torques.
+    pub fn drives(&self, command: &Command) -> Option<Drives> {
+        self.parameters.drives(command, &self.state.q)
     }
 
     /// One substep of `dt` (s), for which `drive` is made. Returns the energy that it moved.
