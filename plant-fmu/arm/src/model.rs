@@ -33,17 +33,19 @@ impl Model for ExoskeletonArm {
         let (n, dt) = step.substeps(self.substep);
         let sucked = self.inputs.vacuum || self.plant.kept();
         let drives = self.plant.drives(&self.command);
-        let (drives, inputs) = (drives.as_ref(), &self.inputs);
+        let advance = |plant: &mut Arm, inputs: &Inputs, n| match &drives {
+            Some(drives) => plant.advance_driven(drives, inputs, n, dt),
+            None => plant.advance(inputs, n, dt),
+        };
         let mut torques;
         // The sensor samples after the first substep that does not end before its instant, in the pose of then.
         if let Some((k, after)) = self.ft.due(&step, self.reading.k) {
             let before = ((after / dt - 1e-6).ceil() as u32).clamp(1, n);
-            torques = self.plant.advance_driven(drives, inputs, before, dt);
+            torques = advance(&mut self.plant, &self.inputs, before);
             self.sample(k, step.start_time);
-            let inputs = &self.inputs;
-            torques += self.plant.advance_driven(drives, inputs, n - before, dt);
+            torques += advance(&mut self.plant, &self.inputs, n - before);
         } else {
-            torques = self.plant.advance_driven(drives, inputs, n, dt);
+            torques = advance(&mut self.plant, &self.inputs, n);
         }
         let was_attached = self.outputs.attached;
         self.show(&(torques / f64::from(n)));

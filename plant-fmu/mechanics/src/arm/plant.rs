@@ -79,27 +79,28 @@ impl Arm {
     /// Runs `n` substeps of `dt` (s) with `inputs` held. Returns the sum of the torques (N·m) that arrived at the joints in
     /// each.
     pub fn advance(&mut self, inputs: &Inputs, n: u32, dt: f64) -> Vector3<f64> {
-        self.advance_driven(None, inputs, n, dt)
+        let lag = Drive::new(self.parameters.drive_cutoff, dt);
+        let mut sum = Vector3::zeros();
+        for _ in 0..n {
+            self.substep(&lag, inputs, dt);
+            sum += self.state.tau;
+        }
+        sum
     }
 
-    /// The same; where there are `drives`, each substep is a cycle of theirs, and what they ask for takes the place of
-    /// `inputs.tau_a`.
+    /// The same; each substep is a cycle of the `drives`, and what they ask for takes the place of `inputs.tau_a`.
+    #[cold]
     pub fn advance_driven(
         &mut self,
-        drives: Option<&Drives>,
+        drives: &Drives,
         inputs: &Inputs,
         n: u32,
         dt: f64,
     ) -> Vector3<f64> {
-        let lag = Drive::new(self.parameters.drive_cutoff, dt);
-        let mut inputs = *inputs;
         let mut sum = Vector3::zeros();
         for _ in 0..n {
-            if let Some(drives) = drives {
-                inputs.tau_a = drives.torque(&self.state.q, &self.state.dq);
-            }
-            self.substep(&lag, &inputs, dt);
-            sum += self.state.tau;
+            let tau_a = drives.torque(&self.state.q, &self.state.dq);
+            sum += self.advance(&Inputs { tau_a, ..*inputs }, 1, dt);
         }
         sum
     }
