@@ -25,7 +25,7 @@ from exo import profile
 from exo.errors import ExoError, FmuError, ScenarioError
 from exo.fmu import DTYPES, Archive, Instance, Kind, References, choices
 from exo.recording import Recording
-from exo.scenario import PROFILE, Case, Coupling, Scenario, Segment, Value
+from exo.scenario import MINUS, PROFILE, Case, Coupling, Scenario, Segment, Value
 
 #: A profile's value from which on the Boolean input that it drives is true.
 TRUE_FROM = 0.5
@@ -128,7 +128,8 @@ def _rows(references: Mapping[Kind, References], rows: int) -> dict[Kind, NDArra
 
 @dataclass(frozen=True)
 class Wire:
-    """A connection of variables of one kind; `ahead` = 1 when it carries what the source put out in this very step."""
+    """A connection of variables of one kind; `ahead` = 1 when it carries what the source put out in this very step. `sign` is
+    −1 where the input gets the output's negative."""
 
     kind: Kind
     target: Part
@@ -136,6 +137,7 @@ class Wire:
     source: Part
     output: int
     ahead: int
+    sign: int
 
 
 def simulate(*, plan: Plan, archives: Mapping[str, Archive]) -> Recording:
@@ -207,16 +209,17 @@ def _wire(plan: Plan, parts: dict[str, Part], time: NDArray[np.float64]) -> list
     profiles = {name: profile.evaluate(segments=segments, time=time) for name, segments in plan.profiles.items()}
     wires = []
     for key, origin in plan.inputs.items():
-        (to, name), (component, output) = key.split(".", 1), origin.split(".", 1)
+        (to, name), (component, output) = key.split(".", 1), origin.removeprefix(MINUS).split(".", 1)
         kind, column = parts[to].input(name)
+        sign = -1 if origin.startswith(MINUS) else 1
         if component == PROFILE:
-            values = profiles[output]
+            values = sign * profiles[output]
             parts[to].u[kind][:, column] = _of_kind(values, kind)
             continue
         stepped_before = order.index(component) < order.index(to)
         late = plan.coupling == "exchange_at_once" or (plan.coupling == "one_sample_delay" and key in plan.delayed)
         source, ahead = parts[component], int(stepped_before and not late)
-        wires.append(Wire(kind, parts[to], column, source, source.output(output, kind), ahead))
+        wires.append(Wire(kind, parts[to], column, source, source.output(output, kind), ahead, sign))
     return wires
 
 
@@ -244,7 +247,7 @@ def _initialize(plan: Plan, parts: dict[str, Part], wires: list[Wire]) -> None:
         for part in parts.values():
             part.read_row(0)
         for wire in wires:
-            wire.target.u[wire.kind][0, wire.input] = wire.source.y[wire.kind][0, wire.output]
+            wire.target.u[wire.kind][0, wire.input] = wire.sign * wire.source.y[wire.kind][0, wire.output]
         for part in parts.values():
             part.write_row(0)
     for part in parts.values():
@@ -262,9 +265,11 @@ def _run(parts: list[Part], wires: list[Wire], plan: Plan) -> None:
     work = [_prepared(part, [w for w in wires if w.target is part]) for part in parts]
     for k in range(plan.steps):
         t.value = k * plan.step
-        for part, component, copies, writes, do_step, reads in work:
+        for part, component, copies, negatives, writes, do_step, reads in work:
             for target, at, width, source, output, stride in copies:
                 target[k * width + at] = source[k * stride + output]
+            for target, at, width, source, output, stride in negatives:
+                target[k * width + at] = -source[k * stride + output]
             for name, call, references, count, address, base, size in writes:
                 address.value = base + k * size
                 if status := call(component, references, count, address):
@@ -283,17 +288,19 @@ def _located(error: ExoError, t: float) -> ExoError:
 
 def _prepared(part: Part, wires: list[Wire]) -> tuple[Any, ...]:
     """Everything that the loop needs of a component: flat views, and ctypes objects for the calls."""
-    copies = []
+    copies: list[tuple[Any, ...]] = []
+    negatives: list[tuple[Any, ...]] = []
     for wire in wires:
         target, source = part.u[wire.kind], wire.source.y[wire.kind]
         width, stride = target.shape[1], source.shape[1]
         # `ahead` rows further on: part of the constant offset.
         offset = wire.ahead * stride + wire.output
-        copies.append((target.reshape(-1).data, wire.input, width, source.reshape(-1).data, offset, stride))
+        taken = negatives if wire.sign < 0 else copies
+        taken.append((target.reshape(-1).data, wire.input, width, source.reshape(-1).data, offset, stride))
     writes = [_transfer(part.instance, "Set", part.inputs[kind], u, first_row=0) for kind, u in part.u.items()]
     reads = [_transfer(part.instance, "Get", part.outputs[kind], y, first_row=1) for kind, y in part.y.items()]
     component = c_void_p(part.instance.component)
-    return part, component, copies, writes, part.instance.function("fmi2DoStep"), reads
+    return part, component, copies, negatives, writes, part.instance.function("fmi2DoStep"), reads
 
 
 def _transfer(
