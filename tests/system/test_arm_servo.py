@@ -20,8 +20,8 @@ def joints(run: Recording, name: str) -> NDArray[np.float64]:
 def test_the_drives_torque_is_their_loop_over_the_step(form: str, experiment: Experiment) -> None:
     run = experiment.recordings[f"lift_{form}"]
     q, q_d, dq_d = joints(run, "plant.q_joint"), joints(run, "controller.q_d"), joints(run, "controller.dq_d")
-    # A position drive sees q at the begin of each of its ten cycles, 0.45 of the way in the mean; a velocity drive what it was at
-    # the begin of the step.
+    # A position drive sees q at the begin of each of its ten cycles, 0.45 of the way in the mean; a velocity drive what
+    # it was at the begin of the step.
     seen = q[:-1] + (0.0 if form == "velocity" else 0.45) * np.diff(q, axis=0)
     loop = K * ((dq_d[:-1] - np.diff(q, axis=0) / T) + K_P * (q_d[:-1] - seen))
     given = joints(run, "plant.tau_drive")[1:]

@@ -128,8 +128,8 @@ def _rows(references: Mapping[Kind, References], rows: int) -> dict[Kind, NDArra
 
 @dataclass(frozen=True)
 class Wire:
-    """A connection of variables of one kind; `ahead` = 1 when it carries what the source put out in this very step. `sign` is
-    −1 where the input gets the output's negative."""
+    """A connection of variables of one kind; `ahead` = 1 when it carries what the source put out in this very step.
+    `sign` is −1 where the input gets the output's negative."""
 
     kind: Kind
     target: Part
