@@ -131,7 +131,7 @@ def empty(library: CDLL) -> float:
     references = (c_uint32 * 8)()
     address = cast(references, c_void_p).value or 0
     call = (transfer, address, 8, rows.ctypes.data, rows.strides[0])
-    copy = (rows.ctypes.data, rows.strides[0], rows.ctypes.data + 8, rows.strides[0], 8)
+    copy = (rows.ctypes.data, rows.strides[0], rows.ctypes.data + 8, rows.strides[0], 8, False)
     component = (1, step, [copy], [call], [call, call, call])
     began = perf_counter()
     assert native().run([component, component], first=0, steps=STEPS, step=STEP) is None

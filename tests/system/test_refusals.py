@@ -106,6 +106,7 @@ def test_two_files_with_one_id_are_refused(tmp_path: Path, fmu_dir: Path) -> Non
         ]),
         (changed('"plant.tau_a" = "c', '"plant.M" = "c'), ["M: only inputs and tunables can be wired"]),
         (changed('= "controller.tau_a"', '= "controller.engage"'), ["expected a Real output"]),
+        (changed('"plant.tau_a" = "c', '"controller.engage" = "-c'), ["only a Real has a negative, this is of type"]),
         (SHORT.encode("utf-16"), ["is no UTF-8"]),
         (SHORT.encode().replace(b"pushing", b"pr\xfcfen"), ["line 3", "0xfc is no UTF-8"]),
         (SHORT + "#" * 1_000_001, ["expected a scenario of at most 1000000"]),

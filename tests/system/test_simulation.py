@@ -82,6 +82,22 @@ def test_wrong_wiring_is_named(inputs: dict[str, str], message: str, archives: M
         simulate.simulate(plan=job(inputs=inputs), archives=archives)
 
 
+def test_a_source_with_a_minus_is_turned_over(archives: Mapping[str, Archive]) -> None:
+    start = job()
+    run = simulate.simulate(
+        plan=replace(
+            start,
+            inputs={**start.inputs, "plant.tau_d": "-controller.tau_a", "plant.tau_h": "-profile.tau_h"},
+            profiles={**start.profiles, "tau_h": (Segment(kind="constant", amplitude=3.0, t_on=0.01),)},
+        ),
+        archives=archives,
+    )
+    assert np.abs(run["controller.tau_a"]).max() > 0.1
+    assert (run["plant.tau_a"] == run["controller.tau_a"]).all()
+    assert (run["plant.tau_d"] == -run["controller.tau_a"]).all()
+    assert (run["plant.tau_h"] == -run["controller.tau_h"]).all()
+
+
 def test_a_refusal_in_the_loop_says_when_and_in_the_fmu_s_words(
     archives: Mapping[str, Archive], monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -98,6 +98,7 @@
 //! | [`encoder`] | whether a sensed position can be, and what the law is told where it cannot |
 //! | [`real`] | the number: double or single precision, and its functions |
 //! | [`one_axis`] | the complete law of one axis: its parameters, inputs and outputs, as the FMU and the C library show them |
+//! | [`notices`] | what a log is told of a tick |
 //! | [`origin`] | the position from which single precision counts |
 //! | [`listed`] | laws as messages list them |
 //! | [`advice`] | gains that are accepted, but probably not meant |
@@ -131,6 +132,7 @@ pub mod listed;
 pub mod midpoint;
 pub mod motion;
 pub mod natural;
+pub mod notices;
 pub mod one_axis;
 pub mod origin;
 pub mod parameters;

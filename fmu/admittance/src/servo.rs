@@ -56,9 +56,12 @@
 //! takes energy only, while the human's work on the nominal repays. So the tank ends a sample no further below zero than that
 //! sample carried it: `docs/passivity.md`, the servo form.
 
+mod axes;
+mod command;
 mod drive;
 mod feedback;
 
+pub use command::{Command, Inputs};
 pub use drive::Drive;
 pub use feedback::{FAULT, Fault, Feedback, message};
 
@@ -66,7 +69,7 @@ use crate::ledger::{Flow, Ledger};
 use crate::real::{self, sat};
 use crate::settling::Settlement;
 use crate::tick::{Coordinates, Refused, Tick};
-use crate::{Axes, Bounds, Gains, ParameterError, Reach, Real, Settings};
+use crate::{ParameterError, Reach, Real, Settings};
 use nalgebra::SVector;
 
 /// Coordinates whose couplings drives can close, each its own.
@@ -90,52 +93,6 @@ pub struct Servo<L, const N: usize> {
     tau_m: SVector<Real, N>,
     /// whether there was one
     ticked: bool,
-}
-
-/// What is sensed and asked for at a tick.
-#[derive(Clone, Copy, Debug)]
-pub struct Inputs<'a, L: Coordinates<N>, const N: usize> {
-    /// Where the robot is, in the law's coordinates.
-    pub place: &'a L::Place,
-    /// The drives' positions, m or rad.
-    pub q: &'a SVector<Real, N>,
-    /// Forces of the human along the law's coordinates, N.
-    pub f_h: &'a SVector<Real, N>,
-    /// Forces of the drives, means over the sample that ended, N.
-    pub tau_m: &'a SVector<Real, N>,
-    /// What is asked of the nominals.
-    pub request: &'a L::Request,
-    /// Sample periods that have passed since the place before this one was read; 1: the tick is in time.
-    pub after: Real,
-}
-
-/// What came of a tick.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Command<const N: usize> {
-    /// Positions for the drives, m: the nominals' in the middle of the sample that begins.
-    pub q_d: SVector<Real, N>,
-    /// Velocities for the drives, m/s: the nominals' means in that sample.
-    pub dq_d: SVector<Real, N>,
-    /// The law's tick, without a force of its own. It is saturated where a drive's force reached f_max in the sample that
-    /// ended, or a spring is at the bound at which it slips.
-    pub tick: Tick<N>,
-}
-
-impl<const N: usize> Command<N> {
-    /// To stand still at `q` (m), out of the loop.
-    pub fn at_rest(q: &SVector<Real, N>) -> Self {
-        Self {
-            q_d: *q,
-            dq_d: SVector::zeros(),
-            tick: Tick::at_rest(q),
-        }
-    }
-
-    /// Whether drives can be told so.
-    pub fn is_finite(&self) -> bool {
-        let Self { q_d, dq_d, tick } = self;
-        real::are_finite(q_d.iter().chain(dq_d).chain(&tick.q_n).chain(&tick.dq_n))
-    }
 }
 
 impl<L: Drivable<N>, const N: usize> Servo<L, N> {
@@ -366,46 +323,3 @@ impl<L: Drivable<N>, const N: usize> Servo<L, N> {
 
 /// Of a spring's force at the bound to which it has been cut.
 const ROUNDING: Real = 8.0 * Real::EPSILON;
-
-impl<const N: usize> Servo<Axes<N>, N> {
-    /// N axes, out of the loop.
-    ///
-    /// # Errors
-    /// The first parameter out of its range, or a law without a servo form.
-    pub fn new(
-        settings: Settings,
-        gains: [Gains; N],
-        reach: &Reach<N>,
-    ) -> Result<Self, ParameterError> {
-        if !settings.law.row().servo {
-            return Err(ParameterError::NoServoForm(settings.law));
-        }
-        Self::of(Axes::new(settings, gains)?, reach)
-    }
-
-    /// Within other bounds from the next tick on.
-    ///
-    /// # Errors
-    /// The first bound out of its range; the bounds stay as they were.
-    pub fn bound(&mut self, bounds: [Bounds; N]) -> Result<(), ParameterError> {
-        self.law.bound(bounds)
-    }
-
-    /// Another nominal mass and damping: on a straight line over the tuning time, each step taken over so that the stored
-    /// energy does not rise. The other gains are the drives' as well, which this law cannot change; `names` are those of K,
-    /// K_P and f_max in the message.
-    ///
-    /// # Errors
-    /// A gain out of its range, or a gain of the drives other than it was; all gains stay as they were.
-    pub fn tune(
-        &mut self,
-        gains: [Gains; N],
-        names: [&'static str; 3],
-    ) -> Result<(), ParameterError> {
-        for (axis, gains) in (1..).zip(&gains) {
-            gains.check((N > 1).then_some(axis))?;
-        }
-        self.law.drive().is_kept(&Drive::of(&gains), names)?;
-        self.law.tune(gains)
-    }
-}

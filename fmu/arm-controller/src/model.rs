@@ -1,12 +1,11 @@
 //! What a step does.
 
 use crate::ArmController;
-use admittance::encoder;
-use admittance::servo;
-use admittance::timing::{self, IN_TIME};
+use admittance::ParameterError;
+use admittance::notices::{Notices, Of};
 use arm_law::arm_law::NotFinite;
 use arm_law::choices::TORQUE;
-use arm_law::{ArmInputs, ArmLaw, ArmParameters};
+use arm_law::{ArmInputs, ArmLaw, ArmOutputs, ArmParameters};
 use fmu_export::{Clock, Log, Model, Refusal, Sample, Sampler, Step};
 
 impl Model for ArmController {
@@ -57,26 +56,19 @@ impl Model for ArmController {
             arm_law.acts(&self.inputs);
             return Ok(());
         };
-        let before = self.outputs.encoder_fault;
-        let drive = self.outputs.drive_fault;
+        let before = notices(&self.outputs);
         if let Err(NotFinite) = arm_law.tick_after(after, &self.inputs, &mut self.outputs) {
             return Err(self.overflow(&format!("tick {number}")));
         }
-        let fault = self.outputs.encoder_fault;
-        if ![0, before].contains(&fault) {
-            let q = self.inputs.q;
-            log.warning(format_args!("{}; q = {q:?} rad", encoder::message(fault)));
-        }
-        let fault = self.outputs.drive_fault;
-        if ![0, drive].contains(&fault) {
-            log.warning(format_args!("{}", servo::message(fault)));
-        }
-        if self.outputs.timing != IN_TIME && !self.told {
-            self.told = true;
-            log.warning(format_args!(
-                "{}",
-                timing::message(self.outputs.timing, number, after)
-            ));
+        let now = notices(&self.outputs);
+        if now != before {
+            let of = Of {
+                number,
+                after,
+                q: &self.inputs.q,
+                unit: "rad",
+            };
+            now.tell(before, &of, &mut self.told, &mut |line| log.warning(line));
         }
         self.tick = i32::try_from(number).unwrap_or(i32::MAX);
         Ok(())
@@ -87,22 +79,18 @@ impl ArmController {
     /// The samples of an experiment that begins with `step`, and a law with their period.
     #[cold]
     fn first(&mut self, step: &Step, log: &mut Log<'_>) -> Result<Sampler, Refusal> {
-        let T = self.parameters.T;
-        let sampler = Sampler::new(step, T);
-        let period = sampler.period();
-        if period != T {
+        let sampler = Sampler::first(step, self.parameters.T, log, |T| {
             let parameters = ArmParameters {
-                T: period,
+                T,
                 ..self.parameters
             };
-            let refused = |error| sampler.refused(T, error);
-            self.arm_law = Some(ArmLaw::new(&parameters).map_err(refused)?);
-            sampler.tell(T, log);
-        }
+            self.arm_law = Some(ArmLaw::new(&parameters)?);
+            Ok::<_, ParameterError>(())
+        })?;
         if let Some(arm_law) = &mut self.arm_law {
             arm_law.lag(sampler.exchange());
         }
-        self.sample_period = period;
+        self.sample_period = sampler.period();
         Ok(sampler)
     }
 
@@ -131,5 +119,13 @@ impl ArmController {
             message += &format!(" and tau_a_measured = {tau_a_measured:?} N·m");
         }
         Refusal(message)
+    }
+}
+
+fn notices(outputs: &ArmOutputs) -> Notices {
+    Notices {
+        encoder: outputs.encoder_fault,
+        drive: outputs.drive_fault,
+        timing: outputs.timing,
     }
 }

@@ -1,8 +1,9 @@
 //! The complete law of the arm: from what is sensed at a tick to the torques on the joints.
 //!
 //! It knows no FMI: the FMU ArmController and the C library are shells around it. Who decides whether it runs stands
-//! in `arm_law/decision.rs`, what a tick shows in `arm_law/show.rs`.
+//! in `arm_law/decision.rs`, what a tick shows in `arm_law/show.rs`, from where positions are counted in `arm_law/counting.rs`.
 
+mod counting;
 mod decision;
 mod show;
 
@@ -11,7 +12,7 @@ use show::Ran;
 use crate::choices::POSITION_SERVO;
 use crate::choices::WRENCH;
 use crate::displacement::Origin;
-use crate::kinematics::{Kinematics, Pose, sin_cos};
+use crate::kinematics::Kinematics;
 use crate::parameters::ArmParameters;
 use crate::signals::{ArmInputs, ArmOutputs};
 use crate::singularity::Singularity;
@@ -22,7 +23,7 @@ use crate::wrench::conditioner::{Made, Reading};
 use crate::wrench::frame::FixedFrame;
 use crate::wrench::{Conditioned, Conditioner, Wrench};
 use admittance::encoder::{Believed, Encoders, Positions};
-use admittance::origin::{self, Move};
+use admittance::origin;
 use admittance::{Bounds, Ledger, ParameterError, Real, Request, real, timing};
 use nalgebra::Vector3;
 
@@ -99,51 +100,6 @@ impl ArmLaw {
         let (gains, joint_gains) = parameters.tuned()?;
         self.law.tune(gains)?;
         self.law.tune_joints(joint_gains)
-    }
-
-    /// Counts from the joint angles `q_0` (rad) and from where the handle is there, from the next tick on: `q` of the
-    /// [`ArmInputs`], and p, p_n of the [`ArmOutputs`]. The [`Bounds`] stay where they are. Only while the law is out of the loop,
-    /// and in task space; in joint space nothing changes.
-    ///
-    /// Single precision needs it, see [`displacement`](crate::displacement).
-    ///
-    /// # Errors
-    /// A bound that the origin's distance rounds away; the origin stays as it was.
-    pub fn count_from(&mut self, q_0: &Vector3<Real>) -> Result<(), ParameterError> {
-        let task_space = match &mut self.law {
-            InSpace::Task(law) => law,
-            InSpace::Joint(_) | InSpace::Servo(_) => return Ok(()),
-        };
-        let origin = Origin::new(&self.kinematics, q_0);
-        let mut bounds = self.bounds;
-        for (bounds, p_0) in bounds.iter_mut().zip(origin.p()) {
-            bounds.q_min -= p_0;
-            bounds.q_max -= p_0;
-        }
-        let by = q_0 - self.origin.map_or(Vector3::zeros(), |before| *before.q());
-        task_space.count_from(q_0, &by, bounds)?;
-        self.q -= by;
-        self.origin = Some(origin);
-        Ok(())
-    }
-
-    /// Position of the handle from which positions are counted, base frame, m; `None`: from zero.
-    pub fn origin(&self) -> Option<&Vector3<Real>> {
-        self.origin.as_ref().map(Origin::p)
-    }
-
-    /// Joint angles counted from zero, rad.
-    pub fn absolute(&self, q: &Vector3<Real>) -> Vector3<Real> {
-        self.origin.map_or(*q, |origin| origin.q() + q)
-    }
-
-    /// Brings `pose` to the joint angles `q` (rad).
-    #[inline]
-    fn turn(&self, pose: &mut Pose, q: &Vector3<Real>) {
-        match &self.origin {
-            Some(origin) => *pose = origin.displaced(&self.kinematics, q),
-            None => self.kinematics.turn(pose, &sin_cos(q)),
-        }
     }
 
     /// One tick, with joint angles that were read for it. What came of it is written into `outputs`.
@@ -303,28 +259,6 @@ impl ArmLaw {
         law.tick(&resting, outputs)?;
         self.show_hand(&Conditioned::default(), outputs);
         Ok(())
-    }
-
-    /// Whether it may engage at a tick, and positions are counted.
-    fn may_engage(&self, inputs: &ArmInputs) -> bool {
-        match self.law {
-            InSpace::Task(_) => inputs.engage != 0,
-            InSpace::Joint(_) | InSpace::Servo(_) => false,
-        }
-    }
-
-    /// The joint angles `q` (rad) from where they are counted. In joint space that is zero: the nominal arm is one at the
-    /// angles themselves.
-    fn counted(
-        &mut self,
-        q: &Vector3<f64>,
-        inputs: &ArmInputs,
-    ) -> Result<Vector3<Real>, NotFinite> {
-        let may_engage = self.may_engage(inputs);
-        if let Some(Move { q_0, .. }) = self.counting.moves(q, may_engage) {
-            self.count_from(&q_0).map_err(|_| NotFinite)?;
-        }
-        Ok(self.counting.counted(q))
     }
 
     /// What the law does at joint angles `q` (rad), with the pose and the hand in `ran`; judged by nobody. After an error

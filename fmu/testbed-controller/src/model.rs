@@ -2,13 +2,11 @@
 
 use crate::TestbedController;
 use crate::controller::Controller;
-use admittance::Law;
-use admittance::encoder;
+use admittance::notices::{Notices, Of};
 use admittance::one_axis::form::TORQUE;
-use admittance::one_axis::{AxisInputs, AxisParameters, NotFinite};
+use admittance::one_axis::{AxisInputs, AxisOutputs, AxisParameters, NotFinite};
 use admittance::parameters::in_range;
-use admittance::servo;
-use admittance::timing::{self, IN_TIME};
+use admittance::{Law, ParameterError};
 use fmu_export::{Clock, Log, Model, Refusal, Sample, Sampler, Step};
 
 impl Model for TestbedController {
@@ -63,25 +61,18 @@ impl Model for TestbedController {
             controller.acts(&self.inputs);
             return Ok(());
         };
-        let before = self.outputs.encoder_fault;
-        let drive = self.outputs.drive_fault;
+        let before = notices(&self.outputs);
         self.tick(after)
             .map_err(|NotFinite| self.overflow(&format!("tick {number}")))?;
-        let fault = self.outputs.encoder_fault;
-        if ![0, before].contains(&fault) {
-            let q = self.inputs.q;
-            log.warning(format_args!("{}; q = {q:?} m", encoder::message(fault)));
-        }
-        let fault = self.outputs.drive_fault;
-        if ![0, drive].contains(&fault) {
-            log.warning(format_args!("{}", servo::message(fault)));
-        }
-        if self.outputs.timing != IN_TIME && !self.told {
-            self.told = true;
-            log.warning(format_args!(
-                "{}",
-                timing::message(self.outputs.timing, number, after)
-            ));
+        let now = notices(&self.outputs);
+        if now != before {
+            let of = Of {
+                number,
+                after,
+                q: &self.inputs.q,
+                unit: "m",
+            };
+            now.tell(before, &of, &mut self.told, &mut |line| log.warning(line));
         }
         self.tick = i32::try_from(number).unwrap_or(i32::MAX);
         Ok(())
@@ -92,22 +83,18 @@ impl TestbedController {
     /// The samples of an experiment that begins with `step`, and a law with their period.
     #[cold]
     fn first(&mut self, step: &Step, log: &mut Log<'_>) -> Result<Sampler, Refusal> {
-        let T = self.parameters.T;
-        let sampler = Sampler::new(step, T);
-        let period = sampler.period();
-        if period != T {
+        let sampler = Sampler::first(step, self.parameters.T, log, |T| {
             let parameters = AxisParameters {
-                T: period,
+                T,
                 ..self.parameters
             };
-            let controller = Controller::new(&parameters, &self.comparator);
-            self.controller = Some(controller.map_err(|error| sampler.refused(T, error))?);
-            sampler.tell(T, log);
-        }
+            self.controller = Some(Controller::new(&parameters, &self.comparator)?);
+            Ok::<_, ParameterError>(())
+        })?;
         if let Some(controller) = &mut self.controller {
             controller.lag(sampler.exchange());
         }
-        self.sample_period = period;
+        self.sample_period = sampler.period();
         Ok(sampler)
     }
 
@@ -145,5 +132,13 @@ impl TestbedController {
             message += &format!(" and tau_a_measured = {tau_a_measured} N");
         }
         Refusal(message)
+    }
+}
+
+fn notices(outputs: &AxisOutputs) -> Notices {
+    Notices {
+        encoder: outputs.encoder_fault,
+        drive: outputs.drive_fault,
+        timing: outputs.timing,
     }
 }

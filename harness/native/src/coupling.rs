@@ -29,6 +29,8 @@ pub struct Copy {
     pub source_size: usize,
     /// Bytes of the value, 4 or 8.
     pub bytes: usize,
+    /// Whether the negative of a Real goes there.
+    pub negative: bool,
 }
 
 /// A Set or Get of one row.
@@ -264,7 +266,9 @@ unsafe fn copied(copy: &Copy, k: usize) {
     let source = copy.source + k * copy.source_size;
     // SAFETY: the caller's contract. Rows of NumPy are aligned to their values.
     unsafe {
-        if copy.bytes == 8 {
+        if copy.negative {
+            *(target as *mut f64) = -*(source as *const f64);
+        } else if copy.bytes == 8 {
             *(target as *mut u64) = *(source as *const u64);
         } else {
             *(target as *mut u32) = *(source as *const u32);
@@ -361,6 +365,7 @@ mod tests {
                     source: outputs[1 - i].as_mut_ptr() as usize + 8 * ahead,
                     source_size: 8,
                     bytes: 8,
+                    negative: false,
                 }],
                 writes: vec![call(set as *const () as usize, inputs[i].as_mut_ptr(), 0)],
                 reads: vec![call(get as *const () as usize, outputs[i].as_mut_ptr(), 1)],

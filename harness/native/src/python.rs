@@ -9,8 +9,9 @@ const PATIENCE: Duration = Duration::from_millis(50);
 
 /// Address, value references, their number, first row, size of a row in bytes.
 type CallAddresses = (usize, usize, usize, usize, usize);
-/// Target's column in row 0, size of its rows; source's column in its first row, size of its rows; bytes of the value.
-type CopyAddresses = (usize, usize, usize, usize, usize);
+/// Target's column in row 0, size of its rows; source's column in its first row, size of its rows; bytes of the value; whether
+/// its negative goes there, which only a Real has.
+type CopyAddresses = (usize, usize, usize, usize, usize, bool);
 /// Instance, `fmi2DoStep`, copies, writes, reads.
 type ComponentAddresses = (
     usize,
@@ -73,12 +74,13 @@ fn component((instance, do_step, copies, writes, reads): ComponentAddresses) -> 
         row,
         size,
     };
-    let copy = |(target, target_size, source, source_size, bytes)| Copy {
+    let copy = |(target, target_size, source, source_size, bytes, negative)| Copy {
         target,
         target_size,
         source,
         source_size,
         bytes,
+        negative,
     };
     Component {
         instance,

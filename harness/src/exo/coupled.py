@@ -28,7 +28,7 @@ from exo.loop import Engine, Part, Wire
 from exo.pace import Pace
 from exo.plan import Plan
 from exo.recording import Recording
-from exo.scenario import PROFILE, Value
+from exo.scenario import MINUS, PROFILE, Value
 
 #: A profile's value from which on the Boolean input that it drives is true.
 TRUE_FROM = 0.5
@@ -134,7 +134,8 @@ class Coupled:
         self._stack.__exit__(kind, error, trace)
 
     def _is_kept(self, name: str) -> bool:
-        return self._kept is None or name in self._kept or name in self._plan.inputs.values()
+        wired = {source.removeprefix(MINUS) for source in self._plan.inputs.values()}
+        return self._kept is None or name in self._kept or name in wired
 
     def start(self, plan: Plan) -> None:
         """Sets parameters and inputs and initializes, after a reset if it has run before. `plan` differs from the first
@@ -257,16 +258,17 @@ def _wire(plan: Plan, parts: dict[str, Part], time: NDArray[np.float64]) -> list
     profiles = {name: profile.evaluate(segments=segments, time=time) for name, segments in plan.profiles.items()}
     wires = []
     for key, origin in plan.inputs.items():
-        (to, name), (component, output) = key.split(".", 1), origin.split(".", 1)
+        (to, name), (component, output) = key.split(".", 1), origin.removeprefix(MINUS).split(".", 1)
         kind, column = parts[to].input(name)
+        sign = -1 if origin.startswith(MINUS) else 1
         if component == PROFILE:
-            values = profiles[output]
+            values = sign * profiles[output]
             parts[to].u[kind][:, column] = _of_kind(values, kind)
             continue
         stepped_before = order.index(component) < order.index(to)
         late = plan.coupling == "exchange_at_once" or (plan.coupling == "one_sample_delay" and key in plan.delayed)
         source, ahead = parts[component], int(stepped_before and not late)
-        wires.append(Wire(kind, parts[to], column, source, source.output(output, kind), ahead))
+        wires.append(Wire(kind, parts[to], column, source, source.output(output, kind), ahead, sign))
     return wires
 
 
@@ -292,7 +294,7 @@ def _initialize(plan: Plan, parts: dict[str, Part], wires: list[Wire]) -> None:
         for part in parts.values():
             part.read_row(0)
         for wire in wires:
-            wire.target.u[wire.kind][0, wire.input] = wire.source.y[wire.kind][0, wire.output]
+            wire.target.u[wire.kind][0, wire.input] = wire.sign * wire.source.y[wire.kind][0, wire.output]
         for part in parts.values():
             part.write_row(0)
     for part in parts.values():

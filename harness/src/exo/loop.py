@@ -92,7 +92,8 @@ def _rows(references: Mapping[Kind, References], rows: int) -> dict[Kind, NDArra
 
 @dataclass(frozen=True)
 class Wire:
-    """A connection of variables of one kind; `ahead` = 1 when it carries what the source put out in this very step."""
+    """A connection of variables of one kind; `ahead` = 1 when it carries what the source put out in this very step.
+    `sign` is −1 where the input gets the output's negative."""
 
     kind: Kind
     target: Part
@@ -100,6 +101,7 @@ class Wire:
     source: Part
     output: int
     ahead: int
+    sign: int
 
 
 @dataclass(frozen=True)
@@ -186,9 +188,11 @@ def _run(all_work: list[_Work], first: int, steps: int, step: float, pace: Pace 
         t.value = k * step
         if pace is not None:
             pace.wait(k, origin + k * step)
-        for part, component, copies, writes, do_step, reads in prepared:
+        for part, component, copies, negatives, writes, do_step, reads in prepared:
             for target, at, width, source, output, stride in copies:
                 target[k * width + at] = source[k * stride + output]
+            for target, at, width, source, output, stride in negatives:
+                target[k * width + at] = -source[k * stride + output]
             for name, call, references, count, address, base, size in writes:
                 address.value = base + k * size
                 if status := call(component, references, count, address):
@@ -235,16 +239,18 @@ def _call(instance: Instance, prefix: str, references: References, buffer: NDArr
 
 def _for_ctypes(work: _Work) -> tuple[Any, ...]:
     """Flat views for the copies, and ctypes objects for the calls."""
-    copies = []
+    copies: list[tuple[Any, ...]] = []
+    negatives: list[tuple[Any, ...]] = []
     for wire in work.wires:
         target, source = wire.target.u[wire.kind], wire.source.y[wire.kind]
         width, stride = target.shape[1], source.shape[1]
         # `ahead` rows further on: part of the constant offset.
         offset = wire.ahead * stride + wire.output
-        copies.append((target.reshape(-1).data, wire.input, width, source.reshape(-1).data, offset, stride))
+        taken = negatives if wire.sign < 0 else copies
+        taken.append((target.reshape(-1).data, wire.input, width, source.reshape(-1).data, offset, stride))
     component = c_void_p(work.part.instance.component)
     writes, reads = ([_objects(call) for call in calls] for calls in (work.writes, work.reads))
-    return work.part, component, copies, writes, work.do_step, reads
+    return work.part, component, copies, negatives, writes, work.do_step, reads
 
 
 def _objects(call: _Call) -> tuple[Any, ...]:
@@ -259,7 +265,7 @@ def _addresses(work: _Work) -> tuple[Any, ...]:
         target, source = wire.target.u[wire.kind], wire.source.y[wire.kind]
         to = target.ctypes.data + wire.input * target.itemsize
         origin = source.ctypes.data + wire.ahead * source.strides[0] + wire.output * source.itemsize
-        copies.append((to, target.strides[0], origin, source.strides[0], target.itemsize))
+        copies.append((to, target.strides[0], origin, source.strides[0], target.itemsize, wire.sign < 0))
     writes, reads = (
         [(_address(c.function), c.references.address, c.references.count, c.base, c.size) for c in calls]
         for calls in (work.writes, work.reads)

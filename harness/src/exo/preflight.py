@@ -14,7 +14,7 @@ from exo.errors import FmuError, ScenarioError, close_matches
 from exo.fmu import Archive
 from exo.paper import lookup
 from exo.profile import SAME_INSTANT
-from exo.scenario import DERIVED, PROFILE, Metric, Scenario
+from exo.scenario import DERIVED, MINUS, PROFILE, Metric, Scenario
 from exo.simulate import Plan
 
 #: By how much a ratio of two times may miss a whole number.
@@ -142,7 +142,9 @@ def _wires(plan: Plan, of: Mapping[str, Archive], owner: str) -> None:
             raise FmuError(
                 f"{owner}: {of[to].path.name}: {name}: only inputs and tunables can be wired, this is {what}"
             )
-        component, output = source.split(".", 1)
+        component, output = source.removeprefix(MINUS).split(".", 1)
+        if source.startswith(MINUS) and variable.type != "Real":
+            raise FmuError(f"{owner}: {key}: {source}: only a Real has a negative, this is of type {variable.type}")
         if component == PROFILE:
             continue
         origin = of[component].variable(output)

@@ -35,7 +35,9 @@ Qualified = Annotated[str, StringConstraints(pattern=r"^[A-Za-z_]\w*\.\S+$")]
 #: Arrays may be written at once, see `exo.naming`; what is kept has one entry an element.
 Parameters = Annotated[dict[str, Value], BeforeValidator(expand_values)]
 QualifiedParameters = Annotated[dict[Qualified, Value], BeforeValidator(expand_values)]
-Wires = Annotated[dict[Qualified, Qualified], BeforeValidator(expand_wires)]
+#: The same as a source, with a minus where its sign is turned over.
+Source = Annotated[str, StringConstraints(pattern=r"^-?[A-Za-z_]\w*\.\S+$")]
+Wires = Annotated[dict[Qualified, Source], BeforeValidator(expand_wires)]
 Columns = Annotated[tuple[Qualified, ...], BeforeValidator(expand_names)]
 Positive = Annotated[float, Field(gt=0.0)]
 NotNegative = Annotated[float, Field(ge=0.0)]
@@ -43,6 +45,8 @@ NotNegative = Annotated[float, Field(ge=0.0)]
 #: Component name that stands for the scenario's profiles in `inputs`. A Boolean input is true from a half on,
 #: an Integer takes the nearest one.
 PROFILE = "profile"
+#: Before a source of an input: the input gets its negative.
+MINUS = "-"
 #: Component name that stands for what is computed from a recording (`exo.derived`).
 DERIVED = "derived"
 #: Files and folders that lie beside the scenarios' folders.
@@ -248,7 +252,7 @@ class Scenario(Data):
     coupling: Coupling = "zero_delay"
     #: In the order in which they step.
     components: Annotated[dict[ComponentName, Component], Field(min_length=1)]
-    #: Input → source: an output of a component, or `profile.<name>`.
+    #: Input → source: an output of a component, or `profile.<name>`; of a Real with a minus before it: its negative.
     inputs: Wires
     #: Inputs that come one macro step later under `one_sample_delay`.
     delayed: Columns = ()
@@ -290,7 +294,7 @@ class Scenario(Data):
     def _check_wiring(self, owner: str, inputs: dict[str, str]) -> None:
         _known(owner, "component", (key.split(".", 1)[0] for key in inputs), self.components)
         for source in inputs.values():
-            component, name = source.split(".", 1)
+            component, name = source.removeprefix(MINUS).split(".", 1)
             if component == PROFILE:
                 _known(owner, "profile", [name], self.profiles)
             else:

@@ -57,7 +57,7 @@ fn below(folder: &Path, prefix: &str, files: &mut Vec<(String, Vec<u8>)>) -> Res
 mod tests {
     use super::*;
     use crate::FMUS;
-    use model_description::archive::{self, Contents};
+    use fmu_archive::archive::{self, Contents};
 
     #[test]
     fn each_archive_carries_its_references_at_their_paths_and_tells_of_them() {

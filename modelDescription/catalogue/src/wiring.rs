@@ -14,15 +14,15 @@ const fn wire(
     Connection { from, to, when }
 }
 
-pub(crate) const SERVO: &str =
-    "form = 2 of the controller and drive.mode = 2 of the testbed: position_servo";
+pub(crate) const SERVO: &str = "form = 2 of the controller and drive.mode = 2 or 3 of the testbed: position_servo, velocity_servo";
+pub(crate) const JOINT_SERVO: &str = "form = 2 and space = 2 of the controller, drive.mode = 2 or 3 of the arm: position_servo, velocity_servo";
 pub(crate) const SENSOR: &str = "where the sensor is the subject, in place of the human's force itself: what it reads comes a step later";
 const LEFT: &str = "a controller and an operator for the left arm";
 const RIGHT: &str = "a controller and an operator for the right arm";
 
 /// All connections.
 #[rustfmt::skip] // a table
-pub const CONNECTIONS: [Connection<'static>; 27] = [
+pub const CONNECTIONS: [Connection<'static>; 36] = [
     wire(("Testbed", "q"), ("TestbedController", "q"), ""),
     wire(("HumanOperator", "f_h[1]"), ("TestbedController", "tau_h"), ""),
     wire(("HumanOperator", "f_h[1]"), ("Testbed", "tau_h"), ""),
@@ -40,6 +40,15 @@ pub const CONNECTIONS: [Connection<'static>; 27] = [
     wire(("HumanOperator", "f_h[i]"), ("ExoskeletonArm", "f_h[i]"), ""),
     wire(("ExoskeletonArm", "p[i]"), ("HumanOperator", "p[i]"), ""),
     wire(("ExoskeletonArm", "dp[i]"), ("HumanOperator", "dp[i]"), ""),
+    wire(("ArmController", "q_d[i]"), ("ExoskeletonArm", "q_d[i]"), JOINT_SERVO),
+    wire(("ArmController", "dq_d[i]"), ("ExoskeletonArm", "dq_d[i]"), JOINT_SERVO),
+    wire(("ExoskeletonArm", "tau_drive[i]"), ("ArmController", "tau_a_measured[i]"), JOINT_SERVO),
+    wire(("ArmController", "q_d[i]"), ("ExoskeletonArms", "left.q_d[i]"), JOINT_SERVO),
+    wire(("ArmController", "dq_d[i]"), ("ExoskeletonArms", "left.dq_d[i]"), JOINT_SERVO),
+    wire(("ExoskeletonArms", "left.tau_drive[i]"), ("ArmController", "tau_a_measured[i]"), JOINT_SERVO),
+    wire(("ArmController", "q_d[i]"), ("ExoskeletonArms", "right.q_d[i]"), JOINT_SERVO),
+    wire(("ArmController", "dq_d[i]"), ("ExoskeletonArms", "right.dq_d[i]"), JOINT_SERVO),
+    wire(("ExoskeletonArms", "right.tau_drive[i]"), ("ArmController", "tau_a_measured[i]"), JOINT_SERVO),
     wire(("ExoskeletonArms", "left.q[i]"), ("ArmController", "q[i]"), LEFT),
     wire(("ArmController", "tau_a[i]"), ("ExoskeletonArms", "left.tau_a[i]"), LEFT),
     wire(("HumanOperator", "f_h[i]"), ("ExoskeletonArms", "left.f_h[i]"), LEFT),

@@ -76,22 +76,32 @@ impl Sampler {
         }
     }
 
-    /// Tells the log that the period is not the `T` (s) that was asked for.
+    /// The same for a model that is made for one period: where it is not `T` (s), `anew` makes it for the one that it is, and
+    /// the log is told.
+    ///
+    /// # Errors
+    /// What the model has against its period.
+    #[cold]
     #[allow(non_snake_case, reason = "the sample period of the standard texts")]
-    pub fn tell(&self, T: f64, log: &mut Log<'_>) {
-        log.warning(format_args!(
-            "sample_period = {:?} s: the communication steps do not make up T = {T:?} s; the law is sampled with them",
-            self.period
-        ));
-    }
-
-    /// A first step whose period the model refuses with `error`, in place of the `T` (s) that was asked for.
-    #[allow(non_snake_case, reason = "the sample period of the standard texts")]
-    pub fn refused(&self, T: f64, error: impl core::fmt::Display) -> Refusal {
-        Refusal(format!(
-            "the communication steps do not make up T = {T:?} s, and with a sample period of {:?} s: {error}",
-            self.period
-        ))
+    pub fn first<E: core::fmt::Display>(
+        step: &Step,
+        T: f64,
+        log: &mut Log<'_>,
+        anew: impl FnOnce(f64) -> Result<(), E>,
+    ) -> Result<Self, Refusal> {
+        let sampler = Self::new(step, T);
+        let period = sampler.period;
+        if period != T {
+            anew(period).map_err(|error| {
+                Refusal(format!(
+                    "the communication steps do not make up T = {T:?} s, and with a sample period of {period:?} s: {error}"
+                ))
+            })?;
+            log.warning(format_args!(
+                "sample_period = {period:?} s: the communication steps do not make up T = {T:?} s; the law is sampled with them"
+            ));
+        }
+        Ok(sampler)
     }
 
     /// The sample that begins with `step`, if one is due in it; it counts as taken once this returns.

@@ -17,7 +17,7 @@ impl Model for ExoskeletonArm {
         self.reading = Reading::default();
         tell(&self.plant, self.substep, log);
         self.sample(0, start_time);
-        self.show();
+        self.show(&Vector3::zeros());
         Ok(())
     }
 
@@ -32,17 +32,23 @@ impl Model for ExoskeletonArm {
     fn step(&mut self, step: Step, log: &mut Log<'_>) -> Result<(), Refusal> {
         let (n, dt) = step.substeps(self.substep);
         let sucked = self.inputs.vacuum || self.plant.kept();
+        let drives = self.plant.drives(&self.command);
+        let advance = |plant: &mut Arm, inputs: &Inputs, n| match &drives {
+            Some(drives) => plant.advance_driven(drives, inputs, n, dt),
+            None => plant.advance(inputs, n, dt),
+        };
+        let mut torques;
         // The sensor samples after the first substep that does not end before its instant, in the pose of then.
         if let Some((k, after)) = self.ft.due(&step, self.reading.k) {
             let before = ((after / dt - 1e-6).ceil() as u32).clamp(1, n);
-            self.plant.advance(&self.inputs, before, dt);
+            torques = advance(&mut self.plant, &self.inputs, before);
             self.sample(k, step.start_time);
-            self.plant.advance(&self.inputs, n - before, dt);
+            torques += advance(&mut self.plant, &self.inputs, n - before);
         } else {
-            self.plant.advance(&self.inputs, n, dt);
+            torques = advance(&mut self.plant, &self.inputs, n);
         }
         let was_attached = self.outputs.attached;
-        self.show();
+        self.show(&(torques / f64::from(n)));
         let Outputs {
             q_joint,
             dq,
@@ -81,8 +87,8 @@ impl ExoskeletonArm {
         self.reading = self.ft.sample(k, start_time, &load, pose, self.reading);
     }
 
-    /// Outputs from the plant's state and the sensors.
-    fn show(&mut self) {
+    /// Outputs from the plant's state and the sensors; `tau_drive` (N·m) is the mean of the drives' torques.
+    fn show(&mut self, tau_drive: &Vector3<f64>) {
         let (plant, place) = (&self.plant, self.plant.place());
         let (q, dq, shown) = (plant.q(), plant.dq(), plant.shown());
         let body = plant.body();
@@ -93,6 +99,7 @@ impl ExoskeletonArm {
             p: place.handle.p.into(),
             dp: (place.handle.J * dq).into(),
             f_e: shown.f_e.into(),
+            tau_drive: (*tau_drive).into(),
             tau_applied: plant.tau_applied().into(),
             tau_f: shown.tau_f.into(),
             q_joint: q.into(),

@@ -4,7 +4,7 @@
 use crate::encoder::Encoder;
 use crate::force_sensor::{ForceSensor, Reading};
 use fmu_declaration::{Declare, Description, Experiment, Rows, Start, Stepping};
-use mechanics::arm::{self, Arm, Energy, Inputs, Parameters};
+use mechanics::arm::{self, Arm, Command, Energy, Inputs, Parameters};
 use serde::{Deserialize, Serialize};
 
 /// The arm: its variables, the plant and what the force sensor shows.
@@ -13,6 +13,9 @@ pub struct ExoskeletonArm {
     /// What acts on the arm.
     #[part]
     pub inputs: Inputs,
+    /// What the drives are told.
+    #[part(from = 94)]
+    pub command: Command,
     /// What the arm shows.
     #[part]
     pub outputs: Outputs,
@@ -77,6 +80,9 @@ pub struct Outputs {
     /// level force of the pad on the payload, its size, mean of the last substep; 0 without payload and at the start
     #[output(88, unit = NEWTON)]
     pub shear: f64,
+    /// torque of the drive on the joint after its lag, mean over the step that ended, whatever the drive takes; 0 at the start
+    #[output(96, unit = NEWTON_METRE)]
+    pub tau_drive: [f64; 3],
     /// The energy balance.
     #[part(from = 17)]
     pub energy: Energy,

@@ -165,7 +165,7 @@ fn the_physics_refuses_what_lies_beyond_the_bounds_of_any_row() {
             }
         }
     }
-    assert_eq!(checked, 2 * 79);
+    assert_eq!(checked, 2 * 88);
 }
 
 fn bits(row: &Variable<ExoskeletonArm>, arm: &ExoskeletonArm) -> Vec<u64> {
@@ -265,8 +265,10 @@ fn the_names_that_others_rely_on_are_there() {
             .collect()
     };
     let inputs = names(Causality::Input);
-    assert_eq!(inputs.len(), 10);
-    for name in ["tau_a[1]", "f_h[3]", "f_d[2]", "vacuum"] {
+    assert_eq!(inputs.len(), 16);
+    for name in [
+        "tau_a[1]", "f_h[3]", "f_d[2]", "vacuum", "q_d[1]", "dq_d[3]",
+    ] {
         assert!(inputs.iter().any(|n| n == name), "{name}");
     }
     for name in [
@@ -277,6 +279,7 @@ fn the_names_that_others_rely_on_are_there() {
         "f_h_measured[3]",
         "f_e[3]",
         "tau_applied[2]",
+        "tau_drive[1]",
         "attached",
         "contact",
         "energy.kinetic",
@@ -308,6 +311,10 @@ fn the_names_that_others_rely_on_are_there() {
         "friction.F_s[2]",
         "gear[1]",
         "drive.cutoff",
+        "drive.mode",
+        "drive.K[1]",
+        "drive.K_P[2]",
+        "drive.tau_max[3]",
         "gravity[3]",
     ] {
         assert!(

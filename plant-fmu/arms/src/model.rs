@@ -15,7 +15,7 @@ impl Model for ExoskeletonArms {
         check_payload(&self.parameters.arm, &self.start)?;
         self.plant = Pair::new(self.parameters, &self.start).map_err(Refusal::new)?;
         tell(&self.plant.arms()[0], self.substep, log);
-        self.show();
+        self.show(&[Vector3::zeros(); 2]);
         Ok(())
     }
 
@@ -27,9 +27,15 @@ impl Model for ExoskeletonArms {
         let (n, dt) = step.substeps(self.substep);
         let Inputs { left, right } = self.inputs;
         let suck = [0, 1].map(|i| [left, right][i].vacuum || self.plant.arms()[i].kept());
-        self.plant.advance(&[left, right], n, dt);
+        let [of_left, of_right] = self.plant.arms();
+        let drives = [
+            of_left.drives(&self.left_command),
+            of_right.drives(&self.right_command),
+        ];
+        let drives = [drives[0].as_ref(), drives[1].as_ref()];
+        let torques = self.plant.advance_driven(drives, &[left, right], n, dt);
         let was_attached = self.outputs.attached;
-        self.show();
+        self.show(&torques.map(|sum| sum / f64::from(n)));
         let shown = &self.outputs;
         if was_attached != shown.attached {
             let what = match (shown.attached, suck[0] && suck[1]) {
@@ -56,12 +62,12 @@ impl Model for ExoskeletonArms {
 }
 
 impl ExoskeletonArms {
-    /// Outputs from the plant's state.
-    fn show(&mut self) {
+    /// Outputs from the plant's state; `tau_drive` (N·m) are the means of the drives' torques.
+    fn show(&mut self, tau_drive: &[Vector3<f64>; 2]) {
         let [left, right] = self.plant.arms();
         self.outputs = Outputs {
-            left: Side::of(left, self.base.y),
-            right: Side::of(right, -self.base.y),
+            left: Side::of(left, self.base.y, &tau_drive[0]),
+            right: Side::of(right, -self.base.y, &tau_drive[1]),
             gap: self.plant.gap(),
             lambda: self.plant.lambda().into(),
             wrist: self
@@ -75,8 +81,8 @@ impl ExoskeletonArms {
 }
 
 impl Side {
-    /// The arm whose shoulder is at `y` (m).
-    fn of(arm: &Arm, y: f64) -> Self {
+    /// The arm whose shoulder is at `y` (m) and whose drives gave `tau_drive` (N·m).
+    fn of(arm: &Arm, y: f64, tau_drive: &Vector3<f64>) -> Self {
         let (place, state, shown) = (arm.place(), arm.state(), arm.shown());
         let base = Vector3::new(0.0, y, 0.0);
         Self {
@@ -86,6 +92,7 @@ impl Side {
             dp: (place.handle.J * state.dq).into(),
             p_pad: (base + place.pad.p).into(),
             f_e: shown.f_e.into(),
+            tau_drive: (*tau_drive).into(),
             tau_applied: state.tau.into(),
             tau_f: shown.tau_f.into(),
             tension: arm.tension(),

@@ -12,6 +12,12 @@ pub struct ExoskeletonArms {
     /// What acts on the arms.
     #[part]
     pub inputs: Inputs,
+    /// What the drives of the left arm are told.
+    #[part(prefix = "left.", from = 107)]
+    pub left_command: arm::Command,
+    /// What those of the right one are told.
+    #[part(prefix = "right.", from = 109)]
+    pub right_command: arm::Command,
     /// What the arms show.
     #[part]
     pub outputs: Outputs,
@@ -124,6 +130,9 @@ pub struct Side {
     /// level force of this pad on the payload, its size, mean of the last substep; 0 without payload and at the start
     #[output(93, unit = NEWTON)]
     pub shear: f64,
+    /// torque of the drive on the joint after its lag, mean over the step that ended, whatever the drive takes; 0 at the start
+    #[output(104, unit = NEWTON_METRE)]
+    pub tau_drive: [f64; 3],
     /// whether table or wall pushed in the last substep
     #[output(8)]
     pub contact: bool,

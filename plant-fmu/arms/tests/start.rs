@@ -100,7 +100,7 @@ fn the_table_of_the_arm_is_that_of_the_single_arm() {
         rows::<ExoskeletonArms>(&["bond.", "base.", "payload.m"]),
         one
     );
-    assert_eq!(one.len(), 40);
+    assert_eq!(one.len(), 44);
 }
 
 #[test]
@@ -122,7 +122,7 @@ fn each_side_has_the_ports_of_the_single_arm() {
             );
             seen += 1;
         }
-        assert_eq!(seen, 15);
+        assert_eq!(seen, 18);
     }
 }
 
@@ -155,6 +155,9 @@ fn changed(
             })
             .into(),
         Access::Boolean { at } => vec![with(&|arms| at.set(arms, i, !at.get(arms, i)))],
+        Access::Enumeration { of, at, .. } => (of.items.iter())
+            .map(|item| with(&|arms| at.set(arms, i, item.value)))
+            .collect(),
         _ => panic!("{} is a Real or a Boolean", row.name),
     }
 }

@@ -6,6 +6,7 @@ use arms::{run, started};
 use exoskeleton_arm::ExoskeletonArm;
 use exoskeleton_arms::ExoskeletonArms;
 use fmu_export::{Log, Model, Step};
+use mechanics::drive::{POSITION_SERVO, VELOCITY_SERVO};
 
 /// 20 kg on both pads, the left arm lifting more than the right one.
 fn lifting() -> ExoskeletonArms {
@@ -151,4 +152,37 @@ fn numbers_out_of_range_are_refused() {
         "{}",
         refusal.0
     );
+}
+
+#[test]
+fn each_command_reaches_the_drives_of_its_own_arm() {
+    for mode in [POSITION_SERVO, VELOCITY_SERVO] {
+        let q = ExoskeletonArms::default().start.q;
+        let told = |by: f64| [q[0] + by, q[1] + by, q[2] - by];
+        let mut arms = started(|arms| arms.parameters.arm.drive_mode = mode);
+        arms.left_command.q_d = told(0.1);
+        (arms.right_command.q_d, arms.right_command.dq_d) = (told(-0.2), [0.1; 3]);
+        run(&mut arms, 0, 300);
+        for (side, command) in [
+            (&arms.outputs.left, arms.left_command),
+            (&arms.outputs.right, arms.right_command),
+        ] {
+            let mut single = ExoskeletonArm::default();
+            (single.parameters.drive_mode, single.command) = (mode, command);
+            single.initialize(0.0, &mut Log::silent()).unwrap();
+            for k in 0..300 {
+                let step = Step::at(f64::from(k) * 1e-3, 1e-3);
+                single.step(step, &mut Log::silent()).unwrap();
+            }
+            assert_ne!(single.outputs.dq, [0.0; 3]);
+            assert_eq!(
+                (side.q, side.dq, side.tau_drive),
+                (
+                    single.outputs.q,
+                    single.outputs.dq,
+                    single.outputs.tau_drive
+                )
+            );
+        }
+    }
 }

@@ -1,7 +1,7 @@
 //! The 1-DoF testbed: a mass with friction in front of a wall (`fig:1dof_testbed`).
 
 use crate::Sum;
-use crate::drive::{Command, Drive};
+use crate::drive::Told;
 use crate::energy::{Energy, Ledger};
 use crate::friction::Friction;
 use crate::parameter::{ParameterError, in_range};
@@ -135,19 +135,12 @@ impl Testbed {
         (self.tau_f, self.tau_e) = (done.tau_f, done.tau_e);
     }
 
-    /// Runs `n` substeps of `dt` (s) with `drive` as the actuator in place of `forces.tau_a`: the drive's cycle is the
+    /// Runs `n` substeps of `dt` (s) with a drive that is `told` something as the actuator in place of `forces.tau_a`: its cycle is the
     /// substep. Returns the mean of its force (N), 0 for n = 0.
-    pub fn advance_driven(
-        &mut self,
-        drive: &Drive,
-        command: &Command,
-        forces: &Forces,
-        n: u32,
-        dt: f64,
-    ) -> f64 {
+    pub fn advance_driven(&mut self, told: &Told, forces: &Forces, n: u32, dt: f64) -> f64 {
         let mut mean = 0.0;
         for _ in 0..n {
-            let tau_a = drive.force(command, self.q(), self.dq());
+            let tau_a = told.force(self.q(), self.dq());
             self.substep(&Forces { tau_a, ..*forces }, dt);
             mean += tau_a / f64::from(n);
         }

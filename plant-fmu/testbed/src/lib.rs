@@ -20,7 +20,8 @@
 //! 1. Parameters are checked by [`initialize`](fmu_export::Model::initialize); the outputs then show the start state.
 //! 2. [`step`](fmu_export::Model::step) holds the inputs and splits the communication step into equal substeps no longer
 //!    than `substep`, so it ends exactly at t + h. The plant keeps no time of its own.
-//!    With `drive.mode` = 2 the actuator is a position drive that takes `q_d` and `dq_d` and closes its loop every substep.
+//!    With `drive.mode` = 2 or 3 the actuator is a position or velocity drive that takes `q_d` and `dq_d` and closes its loop
+//!    every substep.
 //! 3. Outputs follow from the state at t + h; forces (`tau_f`, `tau_e`) are means over the last substep. No output
 //!    depends on an input set after the step: there is no direct feedthrough.
 //!

@@ -1,8 +1,9 @@
 //! Initialize and step.
 
 use crate::Testbed;
-use crate::rows::{Outputs, POSITION_SERVO, TORQUE};
+use crate::rows::Outputs;
 use fmu_export::{Log, Model, Refusal, Step};
+use mechanics::drive::{POSITION_SERVO, TORQUE, VELOCITY_SERVO};
 use mechanics::parameter::in_range;
 use mechanics::testbed::{self as plant, Forces};
 use mechanics::wall::Wall;
@@ -12,9 +13,9 @@ pub const REBOUND_LOST: f64 = 0.02;
 
 impl Model for Testbed {
     fn initialize(&mut self, _start_time: f64, log: &mut Log<'_>) -> Result<(), Refusal> {
-        if ![TORQUE, POSITION_SERVO].contains(&self.mode) {
+        if ![TORQUE, POSITION_SERVO, VELOCITY_SERVO].contains(&self.mode) {
             return Err(Refusal(format!(
-                "drive.mode = {}: expected {TORQUE} (torque) or {POSITION_SERVO} (position_servo)",
+                "drive.mode = {}: expected {TORQUE} (torque), {POSITION_SERVO} (position_servo) or {VELOCITY_SERVO} (velocity_servo)",
                 self.mode
             )));
         }
@@ -43,9 +44,9 @@ impl Model for Testbed {
 
     fn step(&mut self, step: Step, _log: &mut Log<'_>) -> Result<(), Refusal> {
         let (n, dt) = step.substeps(self.substep);
-        let tau_drive = if self.mode == POSITION_SERVO {
-            self.plant
-                .advance_driven(&self.drive, &self.command, &self.forces, n, dt)
+        let told = self.drive.told(self.mode, &self.command, self.plant.q());
+        let tau_drive = if let Some(told) = told {
+            self.plant.advance_driven(&told, &self.forces, n, dt)
         } else {
             self.plant.advance(&self.forces, n, dt);
             self.forces.tau_a

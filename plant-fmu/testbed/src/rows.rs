@@ -1,16 +1,11 @@
 //! The variables, one row each: those of the mechanics, and what the FMU has besides. A row's number decides its value
 //! reference: new ones take the next.
 
-use fmu_declaration::{Declare, Description, Experiment, Rows, Start, Stepping, choices};
+use fmu_declaration::{Declare, Description, Experiment, Rows, Start, Stepping};
 use mechanics::Energy;
-use mechanics::drive::{Command, Drive};
+use mechanics::drive::{Command, DRIVE, Drive, TORQUE};
 use mechanics::testbed::{self as plant, Forces, Parameters};
 use serde::{Deserialize, Serialize};
-
-choices! { DRIVE "Drive" "What the actuator takes":
-    TORQUE = 1 "torque" "the force tau_a";
-    POSITION_SERVO = 2 "position_servo" "q_d and dq_d: the drive closes its own loop every substep, tau_a is not used";
-}
 
 /// The testbed: its variables, and the plant.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, Rows, Start)]
@@ -18,7 +13,7 @@ pub struct Testbed {
     /// What acts on the mass.
     #[part]
     pub forces: Forces,
-    /// What the position drive is told.
+    /// What the drive is told.
     #[part(from = 28)]
     pub command: Command,
     /// What the testbed shows.
@@ -38,7 +33,7 @@ pub struct Testbed {
     /// what the actuator takes
     #[parameter(31, name = "drive.mode", items = DRIVE, start = TORQUE)]
     pub mode: i32,
-    /// The position drive.
+    /// The drive.
     #[part(from = 32)]
     pub drive: Drive,
 

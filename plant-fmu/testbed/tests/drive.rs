@@ -51,6 +51,26 @@ fn the_drive_follows_the_second_order_response_of_its_loop() {
 }
 
 #[test]
+fn a_velocity_drive_takes_one_velocity_for_the_step_from_the_position_at_its_begin() {
+    // M ddq = K (w − dq), w = dq_d + K_P (q_d − q(t_k)) for one step of h: dq⁺ = w + (dq − w) x, x = exp(−K h/M), and
+    // q⁺ = q + w h + (dq − w)(1 − x) M/K.
+    let (M, K, K_P, q_d, h) = (6.0, 30.0, 10.0, 0.01, 0.05);
+    let mut plant = driven(|p| (p.mode, p.command.q_d, p.substep) = (3, q_d, 1e-6));
+    let x = f64::exp(-K * h / M);
+    let (mut q, mut dq) = (0.0, 0.0);
+    for k in 0..40 {
+        run(&mut plant, h, 1);
+        let w = K_P * (q_d - q);
+        q += w * h + (dq - w) * (1.0 - x) * M / K;
+        dq = w + (dq - w) * x;
+        // Sampled force and backward Euler, both first order: K dt/M = 5e-6, over a loop that forgets within a second.
+        let off = plant.outputs.q - q;
+        assert!(off.abs() < 5e-5 * q_d, "{k}: {off}");
+    }
+    assert!((plant.outputs.q / q_d - 1.0).abs() < 0.05); // it got there
+}
+
+#[test]
 fn tau_drive_is_the_mean_force_of_the_step_and_its_momentum_is_the_masss() {
     let mut plant = driven(|p| (p.command.q_d, p.command.dq_d) = (0.02, 0.3));
     for _ in 0..50 {

@@ -108,7 +108,7 @@ fn a_refused_parameter_is_named_with_its_value_and_range() {
     );
     assert_eq!(
         refused(|p| p.mode = 0),
-        "drive.mode = 0: expected 1 (torque) or 2 (position_servo)"
+        "drive.mode = 0: expected 1 (torque), 2 (position_servo) or 3 (velocity_servo)"
     );
     assert_eq!(
         refused(|p| p.substep = 0.0),

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from exo.fmu import Archive
 
 #: How far a Real input swings about its start value, by unit: no FMU stays at rest, none leaves its range.
-SWING = {"rad": 0.1, "m": 0.02, "m/s": 0.1, "N": 12.0, "N.m": 40.0}
+SWING = {"rad": 0.1, "m": 0.02, "m/s": 0.1, "rad/s": 0.5, "N": 12.0, "N.m": 40.0}
 #: Without a segment and a hand the operator does nothing; without noise the arm's sensor shows no clock; the arm meets
 #: the table with a payload, the arms hold one; the controller's nominal meets a limit of its speed.
 SETTINGS: dict[str, dict[str, bool | float | int]] = {

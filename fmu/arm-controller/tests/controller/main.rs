@@ -11,6 +11,8 @@ mod limits;
 mod refusals;
 mod robot;
 mod rows;
+#[path = "../../../../tests/controllers/samples.rs"]
+mod samples;
 mod servo;
 mod singularity;
 mod start;
@@ -21,6 +23,7 @@ mod tuning;
 mod workspace;
 
 use arm_controller::ArmController;
+use arm_controller::ArmController as Controller;
 use fmu_export::{Log, Model, Step};
 
 /// Sample period of the default controller, s.
@@ -44,6 +47,17 @@ fn initialized(change: impl FnOnce(&mut ArmController)) -> ArmController {
 fn step(controller: &mut ArmController, k: u32, h: f64) {
     let step = Step::at(f64::from(k) * h, h);
     controller.step(step, &mut Log::silent()).expect("a step");
+}
+
+/// The human pushes.
+fn pushed(controller: &mut Controller) {
+    controller.inputs.f_h = [3.0, -2.0, 5.0];
+}
+
+/// Another force and another position.
+fn told_otherwise(controller: &mut Controller) {
+    controller.inputs.f_h = [-100.0; 3];
+    controller.inputs.q = [0.0; 3];
 }
 
 /// One tick a step.

@@ -3,18 +3,22 @@
 //! The one-axis law ([`admittance::Axis`]) with a vector for each number and M_n(q) for the mass. The springs, the slip and
 //! the clamp are each joint's own; the joints meet in M_n only.
 
+mod driven;
+mod sensed;
+
+pub use sensed::{Angles, JointProposal, JointRequest, JointSensed};
+
 use super::boxed::Solution;
 use super::midpoint::{self, Sample};
 use super::{JointGains, stored};
-use crate::kinematics::{Kinematics, SinCos, sin_cos};
+use crate::kinematics::{Kinematics, SinCos};
 use crate::nominal::transport::transported;
 use crate::nominal::{NominalArm, RigidBody};
 use crate::workspace::Workspace;
-use admittance::bounds::{Bounds, Interval};
+use admittance::bounds::Bounds;
 use admittance::motion::Sampling;
 use admittance::real::{floored, sat};
 use admittance::retune::Tuning;
-use admittance::servo::{Drivable, Drive};
 use admittance::settling::Keep;
 use admittance::tick::{Coordinates, Tick};
 use admittance::{Motion, ParameterError, Real, Settings, timing};
@@ -46,73 +50,6 @@ struct State {
     q_n: Vector3<Real>,
     v_n: Vector3<Real>,
     motion: [Motion; 3],
-}
-
-/// Joint angles, with sines and cosines.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Angles {
-    q: Vector3<Real>,
-    sin_cos: SinCos,
-}
-
-/// The joints at a tick, once the position is known: what they store, before they act.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct JointSensed {
-    q: Vector3<Real>,
-    body: RigidBody,
-    dq: Vector3<Real>,
-    e: Vector3<Real>,
-    v_n: Vector3<Real>,
-}
-
-/// What is asked of the joints at a tick, beside their inputs.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct JointRequest {
-    /// Whether the nominal stays where it is.
-    pub hold: bool,
-    /// Speed that the nominal must not exceed, beside its bounds, rad/s, ≥ 0; infinite for no limit.
-    pub speed: Vector3<Real>,
-    /// Damping on top of D_n, N·m·s/rad, symmetric and not negative, block diagonal like M_n.
-    pub damping: Matrix3<Real>,
-}
-
-impl Default for JointRequest {
-    /// The law alone.
-    fn default() -> Self {
-        Self {
-            hold: false,
-            speed: Vector3::repeat(Real::INFINITY),
-            damping: Matrix3::zeros(),
-        }
-    }
-}
-
-/// What the joints ask for at a tick. Nothing has happened until it is committed; it may be dropped.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[must_use]
-pub struct JointProposal {
-    q: Vector3<Real>,
-    body: RigidBody,
-    intervals: [Interval; 3],
-    sample: Sample,
-    wish: Solution,
-    tau_demand: Vector3<Real>,
-}
-
-impl Angles {
-    /// The angles `q` (rad).
-    pub fn new(q: &Vector3<Real>) -> Self {
-        Self::with(q, &sin_cos(q))
-    }
-
-    /// The angles `q` (rad), whose sines and cosines are known.
-    #[inline]
-    pub(crate) fn with(q: &Vector3<Real>, sin_cos: &SinCos) -> Self {
-        Self {
-            q: *q,
-            sin_cos: *sin_cos,
-        }
-    }
 }
 
 impl Joints {
@@ -403,47 +340,6 @@ impl Joints {
             motion: [0, 1, 2].map(|i| Motion::at(q[i], sample.dq[i])),
         });
         self.tuning.pass();
-    }
-
-    /// Whether the drives' gains are among `gains` what they were; `names` are those of K, K_P and tau_max in the message.
-    ///
-    /// # Errors
-    /// The first one that is not.
-    pub(super) fn of_the_drives(
-        &self,
-        gains: &JointGains,
-        names: [&'static str; 3],
-    ) -> Result<(), ParameterError> {
-        if gains.K == self.tuning.now().K {
-            drive(self.tuning.now()).is_kept(&drive(gains), names)
-        } else {
-            Err(Drive::<3>::not_kept(names[0], None, gains.K)) // one number for all joints
-        }
-    }
-}
-
-impl Drivable<3> for Joints {
-    fn drive(&self) -> Drive<3> {
-        drive(self.tuning.now())
-    }
-
-    fn v_m(&self, driven: &Solution) -> Vector3<Real> {
-        driven.v_m
-    }
-
-    fn follow(&mut self, proposal: &JointProposal, driven: &Solution, v_b: &[Option<Real>; 3]) {
-        let limited = Vector3::from(v_b.map(|v_b| v_b.is_some()));
-        let v_b = Vector3::from(v_b.map(|v_b| v_b.unwrap_or(0.0)));
-        self.moved_on(proposal, driven, Some(&(v_b, limited)));
-    }
-}
-
-/// The loops of drives with these gains.
-fn drive(gains: &JointGains) -> Drive<3> {
-    Drive {
-        K: Vector3::repeat(gains.K),
-        K_P: gains.K_P,
-        f_max: gains.tau_max,
     }
 }
 

@@ -25,6 +25,24 @@ pub struct JointParameters {
     pub bounds: [Bounds; 3],
 }
 
+impl JointParameters {
+    /// The joints out of the loop, whose torques are limited to `tau_max` (N·m).
+    ///
+    /// # Errors
+    /// The first parameter of the law out of its range.
+    pub(super) fn joints(
+        &self,
+        settings: Settings,
+        kinematics: Kinematics,
+        tau_max: Vector3<Real>,
+    ) -> Result<Joints, ParameterError> {
+        let Self { arm, gains, bounds } = *self;
+        let mut joints = Joints::new(settings, arm, kinematics, JointGains { tau_max, ..gains })?;
+        joints.bound(bounds)?;
+        Ok(joints)
+    }
+}
+
 /// The law between two ticks.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -71,10 +89,7 @@ impl JointSpace {
         limits: Limits,
     ) -> Result<Self, ParameterError> {
         reach.check()?;
-        let JointParameters { arm, gains, bounds } = *parameters;
-        let tau_max = limits.tau_max;
-        let mut joints = Joints::new(settings, arm, kinematics, JointGains { tau_max, ..gains })?;
-        joints.bound(bounds)?;
+        let joints = parameters.joints(settings, kinematics, limits.tau_max)?;
         Ok(Self {
             sampled: Sampled::new(joints, &reach)?.rated(&limits.tau_rate)?,
             limits,
@@ -121,18 +136,11 @@ impl JointSpace {
             q,
             f_h: &pose.J.tr_mul(f_h),
             authority: request.authority(),
-            request: &JointRequest {
-                hold: request.hold,
-                speed: request.speed,
-                damping: at_the_joints(pose, request.damping.max()),
-            },
+            request: &of_the_joints(pose, request),
             after: request.after,
         };
         let accept = |tick: &Tick<3>, G: Real| {
-            show(&kinematics, pose, tick, shown);
-            nominal.q_n = tick.q_n;
-            nominal.dq_n = tick.dq_n;
-            nominal.e_nr = tick.e_nr;
+            show(&kinematics, pose, tick, shown, nominal);
             shown.is_finite() && G.is_finite()
         };
         self.sampled
@@ -156,7 +164,7 @@ impl JointSpace {
         let outside = self.sampled.rest(q, |G| {
             G.is_finite() && HandleTick::at_rest(&pose.p, false).is_finite()
         })?;
-        self.show_rest(pose, q, outside, shown, nominal);
+        show_rest(self.sampled.law(), pose, q, outside, shown, nominal);
         Ok(())
     }
 
@@ -170,19 +178,7 @@ impl JointSpace {
         nominal: &mut Nominal,
     ) {
         let outside = self.sampled.abandon();
-        self.show_rest(pose, q, outside, shown, nominal);
-    }
-
-    fn show_rest(
-        &self,
-        pose: &Pose,
-        q: &Vector3<Real>,
-        outside: bool,
-        shown: &mut HandleTick,
-        nominal: &mut Nominal,
-    ) {
-        *shown = HandleTick::at_rest(&pose.p, outside);
-        *nominal = Nominal::at(q, self.sampled.law().M_n(&pose.sin_cos));
+        show_rest(self.sampled.law(), pose, q, outside, shown, nominal);
     }
 
     /// Sample period, s.
@@ -212,8 +208,30 @@ impl JointSpace {
     }
 }
 
-/// The tick at the handle, which is at `pose`.
-pub(super) fn show(kinematics: &Kinematics, pose: &Pose, tick: &Tick<3>, shown: &mut HandleTick) {
+/// A tick out of the loop, of `joints` at the angles `q` (rad) and `pose`.
+pub(super) fn show_rest(
+    joints: &Joints,
+    pose: &Pose,
+    q: &Vector3<Real>,
+    outside: bool,
+    shown: &mut HandleTick,
+    nominal: &mut Nominal,
+) {
+    *shown = HandleTick::at_rest(&pose.p, outside);
+    *nominal = Nominal::at(q, joints.M_n(&pose.sin_cos));
+}
+
+/// The tick at the handle, which is at `pose`, and its nominal but for M_n.
+pub(super) fn show(
+    kinematics: &Kinematics,
+    pose: &Pose,
+    tick: &Tick<3>,
+    shown: &mut HandleTick,
+    of_joints: &mut Nominal,
+) {
+    of_joints.q_n = tick.q_n;
+    of_joints.dq_n = tick.dq_n;
+    of_joints.e_nr = tick.e_nr;
     let nominal = sin_cos(&tick.q_n);
     let p_n = kinematics.p(&nominal);
     *shown = HandleTick {
@@ -232,9 +250,18 @@ pub(super) fn show(kinematics: &Kinematics, pose: &Pose, tick: &Tick<3>, shown: 
     };
 }
 
+/// What is asked of the handle, which is at `pose`, as it is asked of the joints.
+pub(super) fn of_the_joints(pose: &Pose, request: &Request<3>) -> JointRequest {
+    JointRequest {
+        hold: request.hold,
+        speed: request.speed,
+        damping: at_the_joints(pose, request.damping.max()),
+    }
+}
+
 /// d JᵀJ, N·m·s/rad, for a damping `d` (N·s/m) of the handle: without the elements that couple yaw and pitch, which are
 /// rounding.
-pub(super) fn at_the_joints(pose: &Pose, d: Real) -> Matrix3<Real> {
+fn at_the_joints(pose: &Pose, d: Real) -> Matrix3<Real> {
     let mut D = pose.J.tr_mul(&pose.J) * d;
     (D.m12, D.m13, D.m21, D.m31) = (0.0, 0.0, 0.0, 0.0);
     D

@@ -8,8 +8,8 @@
 //! nominal at rest at the sensed angles instead.
 
 use super::joints::Angles;
-use super::law::{at_the_joints, show};
-use super::{JointGains, JointParameters, JointRequest, Joints, Nominal};
+use super::law::{of_the_joints, show, show_rest};
+use super::{JointGains, JointParameters, Joints, Nominal};
 use crate::handle::{HandleTick, NotFinite};
 use crate::kinematics::{Kinematics, Pose};
 use crate::workspace::Workspace;
@@ -42,9 +42,7 @@ impl JointServo {
         reach: Reach<3>,
         tau_max: Vector3<Real>,
     ) -> Result<Self, ParameterError> {
-        let JointParameters { arm, gains, bounds } = *parameters;
-        let mut joints = Joints::new(settings, arm, kinematics, JointGains { tau_max, ..gains })?;
-        joints.bound(bounds)?;
+        let joints = parameters.joints(settings, kinematics, tau_max)?;
         Ok(Self {
             servo: Servo::of(joints, &reach)?,
             tau_max,
@@ -102,20 +100,12 @@ impl JointServo {
             q,
             f_h: &pose.J.tr_mul(f_h),
             tau_m: &self.measured,
-            request: &JointRequest {
-                hold: request.hold,
-                speed: request.speed,
-                damping: at_the_joints(pose, request.damping.max()),
-            },
+            request: &of_the_joints(pose, request),
             after: request.after,
         };
         let (q_d, dq_d) = (&mut self.q_d, &mut self.dq_d);
         let accept = |command: &Command<3>, G: Real| {
-            let tick = &command.tick;
-            show(&kinematics, pose, tick, shown);
-            nominal.q_n = tick.q_n;
-            nominal.dq_n = tick.dq_n;
-            nominal.e_nr = tick.e_nr;
+            show(&kinematics, pose, &command.tick, shown, nominal);
             let accepted = shown.is_finite() && command.is_finite() && G.is_finite();
             if accepted {
                 (*q_d, *dq_d) = (command.q_d, command.dq_d);
@@ -172,8 +162,7 @@ impl JointServo {
         nominal: &mut Nominal,
     ) {
         (self.q_d, self.dq_d) = (*q, Vector3::zeros());
-        *shown = HandleTick::at_rest(&pose.p, outside);
-        *nominal = Nominal::at(q, self.servo.law().M_n(&pose.sin_cos));
+        show_rest(self.servo.law(), pose, q, outside, shown, nominal);
     }
 
     /// Angles (rad) and velocities (rad/s) that the drives are told.

@@ -3,12 +3,17 @@
 
 mod encoders;
 mod exchange;
+#[path = "../../../../tests/controllers/samples.rs"]
+mod samples;
 
 use admittance::law::LAW;
-use admittance::timing::IN_TIME;
 use fmu_declaration::{Access, Declare};
-use fmu_export::{Clock, Log, Model, Step};
+use fmu_export::{Log, Model, Step};
 use testbed_controller::TestbedController;
+use testbed_controller::TestbedController as Controller;
+
+/// Sample period, s.
+const T: f64 = 0.002;
 
 fn controller(change: impl FnOnce(&mut TestbedController)) -> TestbedController {
     let mut controller = TestbedController::default();
@@ -30,9 +35,20 @@ fn step(controller: &mut TestbedController, k: u32, h: f64) {
     controller.step(step, &mut Log::silent()).expect("a step");
 }
 
+/// The human pushes.
+fn pushed(controller: &mut Controller) {
+    controller.inputs.tau_h = 3.0;
+}
+
+/// Another force and another position.
+fn told_otherwise(controller: &mut Controller) {
+    controller.inputs.tau_h = -100.0;
+    controller.inputs.q = 0.0;
+}
+
 /// One tick a step.
 fn tick(controller: &mut TestbedController, k: u32) {
-    step(controller, k, 0.002);
+    step(controller, k, T);
     assert_eq!(controller.tick, k as i32);
 }
 
@@ -131,64 +147,6 @@ fn until_engage_is_true_there_is_no_force_and_then_it_starts_at_the_sensed_posit
         (0.0, 0.0, 0.0)
     );
     assert!(controller.outputs.G < G);
-}
-
-/// `steps` steps of `h` (s) with the sample period `T` (s) asked for.
-#[allow(non_snake_case, reason = "the paper's symbol")]
-fn run(T: f64, h: f64, steps: u32) -> TestbedController {
-    let mut controller = initialized(|c| {
-        c.parameters.T = T;
-        c.inputs.tau_h = 3.0;
-    });
-    (0..steps).for_each(|k| step(&mut controller, k, h));
-    controller
-}
-
-#[test]
-fn steps_that_divide_the_period_run_the_same_ticks_as_one_step_a_tick() {
-    let reference = run(0.002, 0.002, 30);
-    assert_eq!((reference.tick, reference.sample_period), (29, 0.002));
-    for parts in [2_u32, 3, 4, 10, 40] {
-        let mut other = run(0.002, 0.002 / f64::from(parts), 30 * parts);
-        assert!(
-            (&other.outputs, other.tick) == (&reference.outputs, reference.tick),
-            "T/{parts}"
-        );
-        // The state is the same, too: it goes on alike.
-        let mut goes_on = reference.clone();
-        for k in 30..60 {
-            for controller in [&mut other, &mut goes_on] {
-                step(controller, k, 0.002);
-            }
-            assert!(other.outputs == goes_on.outputs, "T/{parts}, tick {k}");
-        }
-    }
-    // Between two ticks outputs hold.
-    let mut between = run(0.002, 0.002 / 4.0, 119);
-    assert_eq!(between.tick, 29);
-    between.inputs.tau_h = -100.0;
-    between.inputs.q = 0.0;
-    step(&mut between, 119, 0.002 / 4.0);
-    assert_eq!(
-        (between.outputs.tau_a, between.outputs.q_n),
-        (reference.outputs.tau_a, reference.outputs.q_n)
-    );
-}
-
-#[test]
-fn steps_that_do_not_divide_the_period_are_sampled_with_the_nearest_number_of_steps() {
-    // The step, how many make up a sample, and that sample's period.
-    for (h, steps) in [(0.003, 1), (0.06, 1), (0.0014, 1), (0.0006, 3), (0.004, 1)] {
-        let period = h * f64::from(steps);
-        let other = run(0.002, h, 30 * steps);
-        let reference = run(period, period, 30);
-        assert!(
-            (&other.outputs, other.tick) == (&reference.outputs, reference.tick),
-            "h = {h} s"
-        );
-        assert_eq!((other.sample_period, other.tick), (period, 29));
-        assert_eq!(other.outputs.timing, IN_TIME);
-    }
 }
 
 #[test]
@@ -484,18 +442,4 @@ fn limits_keep_the_nominal_and_say_so() {
     for controller in [free, slow, boxed, rated, held] {
         assert!(controller.outputs.tank >= 0.0 && controller.outputs.debt == 0);
     }
-}
-
-#[test]
-fn a_number_of_ticks_that_is_not_that_of_the_time_is_refused_by_name() {
-    let mut controller = initialized(|_| ());
-    let mut clock = Clock::at_start(0.0);
-    for k in 0..20 {
-        tick(&mut controller, k);
-        clock.advance(&Step::at(0.0, 0.002));
-    }
-    assert_eq!(controller.fits(&clock), Ok(()));
-    let refusal = controller.fits(&Clock::at_start(0.0)).unwrap_err();
-    let named = "beginning of the last sample = 0.038 s, expected a time in the 0.0 s";
-    assert!(refusal.0.starts_with(named), "{refusal}");
 }

@@ -56,7 +56,7 @@ def _array(key: str) -> str:
 
 
 def _check_profiles(profiles: dict[str, Any], wires: list[Any], origin: str) -> None:
-    fed = {str(source) for inputs in wires if isinstance(inputs, dict) for source in inputs.values()}
+    fed = {str(source).removeprefix("-") for inputs in wires if isinstance(inputs, dict) for source in inputs.values()}
     names = {name for givers in pairs().values() for name in givers.get(PROFILE, [])}
     for name in profiles:
         if f"{PROFILE}.{name}" not in fed:

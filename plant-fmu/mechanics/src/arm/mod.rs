@@ -27,6 +27,7 @@
 //! | M, C, g | M ddq + C dq + g = τ + J_hᵀ f_h + J_pᵀ (f_d + f_e) + τ_f + stops | kg·m², N·m | [`rigid_body::RigidBody`] |
 //! | p, J | dp = J dq, of handle (h) and pad (p) | m, m/rad | [`kinematics::Point`] |
 //! | τ | dτ/dt = ω (τ_a − τ) | N·m | [`drive::Drive`] |
+//! | τ_a | with a position or velocity drive: clip(K((dq_d − dq) + K_P (q_d − q)), ±τ_max) | N·m | [`servo::Servo`] |
 //! | τ_f | −τ_f ∈ F(dq) Sgn(dq) + b dq, Sgn(0) = \[−1, 1\] | N·m | [`stribeck::Stribeck`] |
 //! | loss | grows with the torque that a gear carries, F + loss | N·m | [`gear_loss::GearLoss`] |
 //! | F | F_c + (F_s − F_c) exp(−(dq/v_s)²) | N·m | [`stribeck::Stribeck::limit`] |
@@ -37,7 +38,7 @@
 //!
 //! # A substep
 //!
-//! 1. The drive's torque and the rigid body at q, with the payload if one is held: [`drive`], [`rigid_body`].
+//! 1. The drive's demand, its torque and the rigid body at q, with the payload if one is held: [`servo`], [`drive`], [`rigid_body`].
 //! 2. The implicit velocity problem: friction of three joints, stops, two surfaces, friction on them: [`problem`].
 //! 3. Its solution, exact up to rounding: [`guess`] and [`solver`], with friction on a surface projected on its [`disc`];
 //!    [`gauss_seidel`] is the last resort.
@@ -65,6 +66,7 @@ mod quotient;
 mod revision;
 pub mod rigid_body;
 mod rubbing;
+pub mod servo;
 pub mod solver;
 pub mod state;
 pub mod stribeck;
@@ -74,6 +76,7 @@ pub mod surface;
 pub use energy::Energy;
 pub use parameters::{Parameters, Start};
 pub use plant::Arm;
+pub use servo::Command;
 pub use state::{Inputs, State};
 
 /// `x`, or zero where it has decayed below what any energy can show.

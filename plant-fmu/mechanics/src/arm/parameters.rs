@@ -1,6 +1,6 @@
 //! What the arm is made of, and where it starts: one row each, numbered from A1 on. A new row takes the next number that is
-//! free in both FMUs of the arm: 54, and not 62 (ExoskeletonArm counts from 36 and ends at 88, ExoskeletonArms from 49; its
-//! outputs stand at 101, 102 and 111).
+//! free in both FMUs of the arm: 64, and not 73 (ExoskeletonArm counts from 36 and ends at 96, ExoskeletonArms from 49; its
+//! outputs stand at 101, 102, 111, 112 and 122, its inputs at 107 to 110).
 
 use fmu_declaration::{Rows, Start};
 
@@ -8,8 +8,10 @@ use super::gear_loss::GearLoss;
 use super::kinematics::Lengths;
 use super::payload::Vacuum;
 use super::rigid_body::Masses;
+use super::servo::Servo;
 use super::stribeck::Stribeck;
 use super::surface::{Table, Wall};
+use crate::drive::{DRIVE, TORQUE};
 
 /// Hard inelastic stops of a joint.
 #[derive(Clone, Copy, Debug, PartialEq, Rows)]
@@ -47,6 +49,13 @@ pub struct Parameters {
     /// corner frequency of the torque's first-order lag; 0: no lag
     #[parameter(22, name = "drive.cutoff", unit = HERTZ, range = 0.0..=1e6, start = 318.0)]
     pub drive_cutoff: f64,
+    /// what the drives take
+    #[parameter(54, name = "drive.mode", items = DRIVE, start = TORQUE)]
+    pub drive_mode: i32,
+    /// The loop of each joint's drive, with the gains and limits that ArmController has in joint space.
+    #[part(each)]
+    #[start([servo(153.0), servo(259.0), servo(153.0)])]
+    pub servo: [Servo; 3],
     /// mass of the payload, a point at the pad; 0: none
     #[parameter(23, name = "payload.m", unit = KILOGRAM, range = 0.0..=1e4)]
     pub payload_m: f64,
@@ -79,6 +88,11 @@ pub struct Start {
 const fn friction(F_c: f64, F_s: f64, b: f64) -> Stribeck {
     let v_s = 0.03;
     Stribeck { F_c, F_s, v_s, b }
+}
+
+const fn servo(tau_max: f64) -> Servo {
+    let (K, K_P) = (400.0, 20.0);
+    Servo { K, K_P, tau_max }
 }
 
 const fn stops(min: f64, max: f64) -> Stops {

@@ -9,6 +9,7 @@ use super::guess::Guess;
 use super::parameters::{Parameters, Start};
 use super::problem::FACINGS;
 use super::rigid_body::RigidBody;
+use super::servo::{Command, Drives};
 use super::solver;
 use super::state::{Configuration, Inputs, Place, Shown, State};
 use super::surface::TooStiff;
@@ -75,12 +76,38 @@ impl Arm {
         }
     }
 
-    /// Runs `n` substeps of `dt` (s) with `inputs` held.
-    pub fn advance(&mut self, inputs: &Inputs, n: u32, dt: f64) {
-        let drive = Drive::new(self.parameters.drive_cutoff, dt);
+    /// Runs `n` substeps of `dt` (s) with `inputs` held. Returns the sum of the torques (N·m) that arrived at the joints in
+    /// each.
+    pub fn advance(&mut self, inputs: &Inputs, n: u32, dt: f64) -> Vector3<f64> {
+        let lag = Drive::new(self.parameters.drive_cutoff, dt);
+        let mut sum = Vector3::zeros();
         for _ in 0..n {
-            self.substep(&drive, inputs, dt);
+            self.substep(&lag, inputs, dt);
+            sum += self.state.tau;
         }
+        sum
+    }
+
+    /// The same; each substep is a cycle of the `drives`, and what they ask for takes the place of `inputs.tau_a`.
+    #[cold]
+    pub fn advance_driven(
+        &mut self,
+        drives: &Drives,
+        inputs: &Inputs,
+        n: u32,
+        dt: f64,
+    ) -> Vector3<f64> {
+        let mut sum = Vector3::zeros();
+        for _ in 0..n {
+            let tau_a = drives.torque(&self.state.q, &self.state.dq);
+            sum += self.advance(&Inputs { tau_a, ..*inputs }, 1, dt);
+        }
+        sum
+    }
+
+    /// The drives with their `command` in a step that begins now; `None`: they take torques.
+    pub fn drives(&self, command: &Command) -> Option<Drives> {
+        self.parameters.drives(command, &self.state.q)
     }
 
     /// One substep of `dt` (s), for which `drive` is made. Returns the energy that it moved.

@@ -8,6 +8,7 @@ use super::coupling::{Coupled, Coupling, SIGNS};
 use super::energy::{self, Balance};
 use crate::arm::drive::Drive;
 use crate::arm::payload::Event;
+use crate::arm::servo::Drives;
 use crate::arm::substep::Moved;
 use crate::arm::{self, Arm, Inputs, Start, solver};
 use crate::parameter::{ParameterError, in_range};
@@ -72,12 +73,36 @@ impl Pair {
         }
     }
 
-    /// Runs `n` substeps of `dt` (s) with the `inputs` of the left and the right arm held.
-    pub fn advance(&mut self, inputs: &[Inputs; 2], n: u32, dt: f64) {
-        let drive = Drive::new(self.arms[0].parameters().drive_cutoff, dt);
+    /// Runs `n` substeps of `dt` (s) with the `inputs` of the left and the right arm held. Returns the sums of the torques
+    /// (N·m) that arrived at their joints in each.
+    pub fn advance(&mut self, inputs: &[Inputs; 2], n: u32, dt: f64) -> [Vector3<f64>; 2] {
+        self.advance_driven([None, None], inputs, n, dt)
+    }
+
+    /// The same; where an arm has `drives`, each substep is a cycle of theirs, and what they ask for takes the place of its
+    /// `tau_a`.
+    pub fn advance_driven(
+        &mut self,
+        drives: [Option<&Drives>; 2],
+        inputs: &[Inputs; 2],
+        n: u32,
+        dt: f64,
+    ) -> [Vector3<f64>; 2] {
+        let lag = Drive::new(self.arms[0].parameters().drive_cutoff, dt);
+        let mut inputs = *inputs;
+        let mut sums = [Vector3::zeros(); 2];
         for _ in 0..n {
-            self.substep(&drive, inputs, dt);
+            for (i, arm) in self.arms.iter().enumerate() {
+                if let Some(drives) = drives[i] {
+                    inputs[i].tau_a = drives.torque(&arm.q(), &arm.dq());
+                }
+            }
+            self.substep(&lag, &inputs, dt);
+            for (sum, arm) in sums.iter_mut().zip(&self.arms) {
+                *sum += arm.tau_applied();
+            }
         }
+        sums
     }
 
     fn substep(&mut self, drive: &Drive, inputs: &[Inputs; 2], dt: f64) {
