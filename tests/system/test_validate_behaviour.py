@@ -53,8 +53,9 @@ def test_a_good_fmu_passes_every_dynamic_rule(name: str, tmp_path: Path) -> None
     )
 
 
-def test_scheduled_execution_runs_by_its_clock(tmp_path: Path) -> None:
-    parts = moving3(tmp_path, "-DSCHEDULED")
+def scheduled(folder: Path, *macros: str) -> Parts:
+    """The FMU that moves, for scheduled execution."""
+    parts = moving3(folder, "-DSCHEDULED", *macros)
     parts.edit(
         "CoSimulation",
         tag="ScheduledExecution",
@@ -66,9 +67,30 @@ def test_scheduled_execution_runs_by_its_clock(tmp_path: Path) -> None:
             "canReturnEarlyAfterIntermediateUpdate",
         ),
     )
+    return parts
+
+
+def test_scheduled_execution_runs_by_its_clock(tmp_path: Path) -> None:
     none = "skipped: scheduled execution has no communication steps"
     without = ("run-step-size", "run-stop-time", "run-event-mode", "run-early-return")
-    assert verdicts(parts, tmp_path) == {rule: none if rule in without else "passed" for rule in ALL}
+    assert verdicts(scheduled(tmp_path), tmp_path) == {rule: none if rule in without else "passed" for rule in ALL}
+
+
+def test_clocked_outputs_are_compared_in_scheduled_execution(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    only(monkeypatch, "run-reset")
+    parts = scheduled(tmp_path, "-DRESET_KEEPS_X")
+    parts.edit(typed("x"), clocks="11", variability="discrete")
+    parts.edit(typed("steps"), clocks="11")
+    assert verdicts(parts, tmp_path)["run-reset"].startswith("failed: x is [")
+
+
+def test_without_outputs_there_is_nothing_to_compare(tmp_path: Path) -> None:
+    parts = moving2(tmp_path)
+    for name in ("x", "steps"):
+        parts.edit(f"ModelVariables/ScalarVariable[@name='{name}']", causality="local")
+    found = verdicts(parts, tmp_path)
+    assert found["run-reset"] == "skipped: it has no output that could be compared"
+    assert found["run-stop-time"] == "passed"
 
 
 def test_a_capability_that_is_not_there_is_skipped_with_its_name(tmp_path: Path) -> None:

@@ -109,6 +109,8 @@ def findings(
         if trial.rule.only not in ("", description.version.name):
             continue
         reason = "a plain run fails already: see load-…" if broken else trial.left_out(description)
+        if trial.compares and not task["outputs"]:
+            reason = reason or "it has no output that could be compared"
         if not repeats and trial.compares:
             reason = f"equal runs differ: see {REPEAT.id}"
         if reason:

@@ -16,13 +16,16 @@ MOST = 20_000
 def of(description: Description, library: Path, resources: Path) -> dict[str, Any]:
     """The task for any run; what is done with it comes from the caller."""
     start, step = times(description)
-    variables = [v for v in description.variables if is_read(description, v)]
+    interface = "CoSimulation" if description.interface is None else str(description.interface.tag)
+    # Clocked variables may be set before their Clock ticks and read after it: in scheduled execution, at each step.
+    ticks = interface == "ScheduledExecution"
+    variables = [v for v in description.variables if is_read(description, v, clocked=ticks)]
     outputs = [v for v in variables if v.causality == "output"]
-    floats = [v for v in variables if v.kind in FLOATS and not v.clocked]
+    floats = [v for v in variables if v.kind in FLOATS]
     folder = resources.resolve()
     return {
         "version": description.version.name,
-        "interface": "CoSimulation" if description.interface is None else str(description.interface.tag),
+        "interface": interface,
         "library": str(library),
         "guid": description.token,
         # FMI 2.0 wants a URI, FMI 3.0 a path that ends with a separator.
@@ -56,10 +59,10 @@ def times(description: Description) -> tuple[float, float]:
     return (start if isfinite(start) else 0.0), step
 
 
-def is_read(description: Description, variable: Variable) -> bool:
-    """Whether it can be read at any time: Clocks and what they clock cannot."""
-    readable = variable.kind not in ("", "Clock") and variable.reference is not None and not variable.clocked
-    return readable and description.size(variable) is not None
+def is_read(description: Description, variable: Variable, *, clocked: bool = False) -> bool:
+    """Whether it can be read at any time: Clocks cannot, and what they clock only when they tick."""
+    readable = variable.kind not in ("", "Clock") and variable.reference is not None
+    return readable and (clocked or not variable.clocked) and description.size(variable) is not None
 
 
 def read(description: Description, variable: Variable) -> list[Any]:
