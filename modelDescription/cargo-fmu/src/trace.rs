@@ -11,11 +11,19 @@ use std::path::PathBuf;
 /// # Errors
 /// Names the file and the path that is in it.
 pub fn forbid_private_paths(workspace: &Workspace, file: &str, bytes: &[u8]) -> Outcome {
-    match private_paths(workspace)
-        .into_iter()
-        .find(|private| contains(bytes, &[private.as_encoded_bytes(), b"/"].concat()))
-    {
-        Some(private) => Err(Failure::Found(format!(
+    let below = |path: &OsString| [path.as_encoded_bytes(), b"/"].concat();
+    let named = |path: &OsString| path.as_encoded_bytes().to_vec();
+    // A folder of the sources may stand there by itself, from `env!("CARGO_MANIFEST_DIR")`. One of the root's own folders is no
+    // such text: others have it, too.
+    let sources = [&workspace.root, &workspace.folder];
+    let sources = sources.into_iter().chain(&workspace.beside);
+    let sources = sources.filter(|path| path.components().count() > 2);
+    let whole = sources.map(|path| path.clone().into_os_string());
+    let whole = whole.map(|path| (named(&path), path));
+    let parts = private_paths(workspace).into_iter();
+    let mut parts = whole.chain(parts.map(|path| (below(&path), path)));
+    match parts.find(|(part, _)| contains(bytes, part)) {
+        Some((_, private)) => Err(Failure::Found(format!(
             "{file} carries the path {}",
             private.to_string_lossy()
         ))),
@@ -143,6 +151,8 @@ mod tests {
                 "{message}"
             );
         }
+        let alone = b"\0/home/me/own models/plant\0";
+        assert!(forbid_private_paths(&workspace(), "x.so", alone).is_err());
         assert!(
             forbid_private_paths(&workspace(), "index.html", b"see /source/src/lib.rs").is_ok()
         );
