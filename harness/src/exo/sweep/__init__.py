@@ -92,10 +92,7 @@ def sweep(
         check_figures(study, [ROW, *rows[0], *runs.names, SECONDS])
     archives = {name: (folder / name).read_bytes() for name in names}
     checksums = {name: hashlib.sha256(data).hexdigest() for name, data in archives.items()}
-    store = Store(out, study, scenario, rows, checksums)
-    if fresh:
-        store.clear()
-    with store:
+    with Store(out, study, scenario, rows, checksums, fresh=fresh) as store:
         before = store.done()
         queue = Queue(rows, before)
         task = Task(
@@ -105,10 +102,10 @@ def sweep(
             metrics=study.metrics,
             branch_at=study.branch_at,
             engine=engine,
-            fmu_dir=None if scheduler else folder.resolve(),
+            fmu_dir=folder.resolve() if scheduler is None else None,
         )
         chunks: Iterator[Kept]
-        if scheduler:
+        if scheduler is not None:
             chunks = cluster.run(task, queue, scheduler=scheduler, archives=archives)
         else:
             chunks = local.run(task, queue, workers=workers or local.processors())
