@@ -26,7 +26,7 @@ import pytest
 from exo import sweep
 from exo.errors import ExoError
 from exo.runs import FAILURE
-from exo.sweep import local, store, study
+from exo.sweep import local, pictures, store, study
 from exo.sweep.pictures import front
 
 from commands import exo
@@ -372,6 +372,7 @@ def test_what_is_no_address_is_refused_at_once(address: str, file: Path, fmu_dir
         ('x = "controller.K"', 'x = "controller.D"', "no column controller.D"),
         ('kind = "map"', 'kind = "pie"', "figures.0.kind"),
         ('color = "release_delay"', "", "a map needs color"),
+        ("[10.0, 20.0, 30.0]", '["10"]', "controller.K holds texts; expected numbers to draw"),
         ('title = "Time', 'titel = "Time', "titel"),
         ("[axes", '[sampling]\nmethod = "sobol"\nsamples = 100\n[axes', "expected a power of 2, as 64 or 128"),
         ("[axes", '[sampling]\nmethod = "random"\n[axes', "method random: expected samples"),
@@ -422,6 +423,53 @@ def test_samples_are_spread_as_they_say_and_come_from_the_seed(method: str) -> N
 def test_a_front_has_what_no_other_point_beats() -> None:
     x, y = np.array([3.0, 1.0, 2.0, 2.0, 4.0, 1.0]), np.array([1.0, 5.0, 3.0, 2.0, 1.0, 6.0])
     assert [(x[i], y[i]) for i in front(x, y)] == [(1.0, 5.0), (2.0, 2.0), (3.0, 1.0)]
+
+
+POINTS = {
+    "a": [1.0, 2.0, 3.0, 4.0],
+    "b": [1.0, 2.0, 3.0, 4.0],
+    "z": [0.0, 0.4, 0.6, 0.9],
+    "yes": [True, True, True, False],
+}
+
+
+@pytest.mark.parametrize(
+    ("settings", "columns", "drawn"),
+    [
+        ({"limit": 0.5}, {}, 4),
+        ({"limit": 0.5}, {"b": [1.0] * 4}, 4),
+        ({"limit": 0.5}, {"a": [1.0] * 4, "b": [1.0] * 4}, 4),
+        ({"log": ["x"]}, {"a": [-1.0, -1.0, 2.0, 2.0], "b": [1.0, 2.0, 1.0, 2.0]}, 2),
+        ({"where": {"yes": 1.0}}, {}, 3),
+    ],
+    ids=["a slope", "a line", "one point", "no logarithm", "a Boolean"],
+)
+def test_points_that_are_no_map_are_drawn_as_what_they_are(
+    settings: dict[str, Any], columns: dict[str, Any], drawn: int, tmp_path: Path, monkeypatch: Any
+) -> None:
+    data = {"id": "f", "title": "f", "kind": "map", "x": "a", "y": "b", "color": "z", **settings}
+    seen = []
+    plain = pictures._map
+
+    def look(axes: Any, of: Any, figure: Any, numbers: Any) -> None:
+        seen.append(len(numbers["z"]))
+        plain(axes, of, figure, numbers)
+
+    monkeypatch.setattr(pictures, "_map", look)
+    figure = study.Figure.model_validate_json(json.dumps(data))
+    path = pictures.draw(figure, sampled("random"), pa.table({**POINTS, **columns}), tmp_path)
+    assert seen == [drawn]
+    assert path.stat().st_size > 5_000
+
+
+def test_a_figure_that_cannot_be_drawn_leaves_the_others_and_says_where_the_runs_are(
+    file: Path, fmu_dir: Path, tmp_path: Path
+) -> None:
+    nothing = '[[figures]]\nid = "none"\ntitle = "None"\nkind = "histogram"\nx = "tank"\nwhere = { tank = -7.0 }\n'
+    file.write_text(WALL.replace("[[figures]]", nothing + "[[figures]]"))
+    with pytest.raises(ExoError, match=r"figure none: no row has tank; the runs are in .*runs\.parquet"):
+        sweep.sweep(file, out=tmp_path, workers=1, fmu_dir=fmu_dir)
+    assert (tmp_path / "small" / "map.png").exists()
 
 
 def test_the_table_opens_in_parquet_with_what_was_asked_for_beside_it(

@@ -25,7 +25,7 @@ from exo.runs import FAILURE, Batch
 from exo.sweep import cluster, local, pictures
 from exo.sweep.chunks import Queue
 from exo.sweep.local import Kept
-from exo.sweep.store import ROW, SECONDS, Store
+from exo.sweep.store import ROW, SECONDS, TABLE, Store
 from exo.sweep.study import Study, built_in, check_figures, load
 from exo.sweep.work import Task
 
@@ -117,5 +117,12 @@ def sweep(
             failed += sum(one.outcome.error is not None for one in done)
             tell(Progress(finished, len(rows), len(before), failed))
         table = store.finish()
-        drawn = tuple(pictures.draw(figure, study, table, store.folder) for figure in study.figures)
-    return Swept(store.folder, table, drawn)
+        drawn, wrong = [], []
+        for figure in study.figures:
+            try:
+                drawn.append(pictures.draw(figure, study, table, store.folder))
+            except ExoError as error:
+                wrong.append(f"{error}; the runs are in {store.folder / TABLE}")
+    if wrong:
+        raise ExoError("\n".join(wrong))
+    return Swept(store.folder, table, tuple(drawn))

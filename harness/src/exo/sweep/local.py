@@ -16,6 +16,8 @@ from exo.sweep.store import Done
 from exo.sweep.work import Chunk, Task, run_chunk
 
 Kept = tuple[list[str], list[Done]]
+#: How long a worker that was told to end may take (s).
+GONE_S = 2.0
 ENDED = "its process was ended twice; expected an FMU that returns"
 
 
@@ -91,3 +93,6 @@ def _end(pool: ProcessPoolExecutor) -> None:
     pool.shutdown(wait=False, cancel_futures=True)
     for process in processes.values():
         process.terminate()
+    # Their folders can be removed once they are gone; an FMU that blocks the signal is not waited for.
+    for process in processes.values():
+        process.join(GONE_S)

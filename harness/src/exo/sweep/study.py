@@ -262,3 +262,5 @@ def check_figures(study: Study, columns: list[str]) -> None:
         for name in (figure.x, figure.y, figure.color, figure.contour, *figure.where):
             if name is not None and name not in columns:
                 raise ExoError(f"{study.id}: figure {figure.id}: no column {name}{close_matches(name, columns)}")
+            if name in study.axes and any(isinstance(value, str) for value in study.axes[name].values):
+                raise ExoError(f"{study.id}: figure {figure.id}: {name} holds texts; expected numbers to draw")
