@@ -1,6 +1,7 @@
 """Many runs of a scenario: each equals a run of its own, whatever ran before it."""
 
 import math
+from contextlib import ExitStack
 from pathlib import Path
 from typing import Any
 
@@ -9,9 +10,10 @@ import pyarrow as pa
 import pytest
 
 import exo
-from exo import experiment, loop, scenario, selection
+from exo import experiment, loop, metrics, scenario, selection, simulate
+from exo.coupled import Coupled
 from exo.errors import ExoError, FmuError
-from exo.fmu import Instance
+from exo.fmu import Archive, Instance
 from exo.loop import Part
 from exo.runs import FAILURE, Batch
 
@@ -83,6 +85,25 @@ def test_rows_that_branch_off_equal_runs_whose_gain_changes_then(engine: loop.En
         assert equal(found[name][0], own[name][0]), name
         assert all(equal(a, b) for a, b in zip(found[name], backwards[name][::-1], strict=True)), name
     assert len(set(found["release_delay"])) == 3
+    for i in (1, 2):
+        assert equal(found["release_delay"][i], changed(gains[i], at=19.0, engine=engine, fmu_dir=fmu_dir)), gains[i]
+
+
+def changed(K: float, *, at: float, engine: loop.Engine, fmu_dir: Path) -> float:
+    """The time to let go of one whole run, without a saved state, whose gain is set under way."""
+    loaded = selection.narrowed(scenario.load("wall"), cases=[WALL])
+    of = simulate.plan(scenario=loaded, case=loaded.cases[0])
+    metric = next(one for one in loaded.metrics if one.id == "release_delay")
+    with ExitStack() as stack:
+        archives = {name: stack.enter_context(Archive(fmu_dir / name)) for name in of.components.values()}
+        coupled = stack.enter_context(Coupled(of, archives))
+        coupled.start(of)
+        coupled.advance(until=round(at / of.step), engine=engine)
+        coupled.set("controller.K", K)
+        coupled.advance(engine=engine)
+        return metrics.evaluate(
+            recording=coupled.recording(), function=metric.function, arguments=metric.arguments, owner="changed"
+        )
 
 
 @pytest.mark.parametrize(
