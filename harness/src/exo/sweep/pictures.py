@@ -37,10 +37,10 @@ def draw(figure: Figure, study: Study, table: pa.Table, folder: Path) -> Path:
     wanted = [name for name in (figure.x, figure.y, figure.color, figure.contour) if name is not None]
     columns = {name: _numbers(table, name) for name in wanted}
     good = np.all([np.isfinite(column) for column in columns.values()], axis=0)
-    for name in (figure.x, figure.y):
+    for axis, drawn in (("x", figure.x), ("y", figure.y)):
         # What is 0 or below has no place on a logarithmic axis.
-        if name is not None and ("x" if name == figure.x else "y") in figure.log:
-            good &= columns[name] > 0.0
+        if drawn is not None and axis in figure.log:
+            good &= columns[drawn] > 0.0
     if not good.any():
         raise ExoError(f"{study.id}: figure {figure.id}: no row has {', '.join(wanted)}")
     columns = {name: column[good] for name, column in columns.items()}
