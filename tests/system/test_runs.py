@@ -1,6 +1,7 @@
 """Many runs of a scenario: each equals a run of its own, whatever ran before it."""
 
 import math
+from contextlib import ExitStack
 from pathlib import Path
 from typing import Any
 
@@ -9,8 +10,11 @@ import pyarrow as pa
 import pytest
 
 import exo
-from exo import experiment, loop, scenario, selection
-from exo.errors import ExoError
+from exo import experiment, loop, metrics, scenario, selection, simulate
+from exo.coupled import Coupled
+from exo.errors import ExoError, FmuError
+from exo.fmu import Archive, Instance
+from exo.loop import Part
 from exo.runs import FAILURE, Batch
 
 WALL = "passive_bounded_5_0.5"
@@ -81,6 +85,25 @@ def test_rows_that_branch_off_equal_runs_whose_gain_changes_then(engine: loop.En
         assert equal(found[name][0], own[name][0]), name
         assert all(equal(a, b) for a, b in zip(found[name], backwards[name][::-1], strict=True)), name
     assert len(set(found["release_delay"])) == 3
+    for i in (1, 2):
+        assert equal(found["release_delay"][i], changed(gains[i], at=19.0, engine=engine, fmu_dir=fmu_dir)), gains[i]
+
+
+def changed(K: float, *, at: float, engine: loop.Engine, fmu_dir: Path) -> float:
+    """The time to let go of one whole run, without a saved state, whose gain is set under way."""
+    loaded = selection.narrowed(scenario.load("wall"), cases=[WALL])
+    of = simulate.plan(scenario=loaded, case=loaded.cases[0])
+    metric = next(one for one in loaded.metrics if one.id == "release_delay")
+    with ExitStack() as stack:
+        archives = {name: stack.enter_context(Archive(fmu_dir / name)) for name in of.components.values()}
+        coupled = stack.enter_context(Coupled(of, archives))
+        coupled.start(of)
+        coupled.advance(until=round(at / of.step), engine=engine)
+        coupled.set("controller.K", K)
+        coupled.advance(engine=engine)
+        return metrics.evaluate(
+            recording=coupled.recording(), function=metric.function, arguments=metric.arguments, owner="changed"
+        )
 
 
 @pytest.mark.parametrize(
@@ -96,6 +119,18 @@ def test_rows_that_branch_off_equal_runs_whose_gain_changes_then(engine: loop.En
         ({"controller.K": [1.0, 2.0], "plant.M": [1.0]}, None, "expected columns of one length"),
         ({"plant.M": [1.0]}, 5.0, "plant.M: is fixed; after 5 s only tunable"),
         ({"duration": [1.0]}, 5.0, "cannot set it"),
+        (
+            {"controller.K": [1.0, None]},
+            None,
+            "controller.K: expected a number of 64 bits, a text, or true or false",
+        ),
+        ({"controller.K": [[1.0, 2.0]]}, None, "expected a number of 64 bits"),
+        ({"controller.K": [2**70]}, None, "expected a number of 64 bits"),
+        ({"controller.K": 1.0}, None, "expected a name and a list of values, got 1.0"),
+        ({"controller.law": "passive"}, None, "expected a name and a list of values, got passive"),
+        ({"controller.law": ["passive", 3]}, None, "expected values of one kind, got the text passive, the number 3"),
+        (pa.table([[1.0], [2.0]], names=["controller.K"] * 2), None, "expected each column once"),
+        ({"controller.K": [1.0]}, math.nan, "branch_at = nan s: expected a time within the run"),
     ],
 )
 def test_what_no_row_can_set_is_refused_before_anything_runs(
@@ -104,6 +139,44 @@ def test_what_no_row_can_set_is_refused_before_anything_runs(
     with pytest.raises(ExoError) as caught:
         exo.batch("wall", parameters, cases=[WALL], branch_at=branch_at, fmu_dir=fmu_dir)
     assert said in str(caught.value)
+
+
+def test_two_keys_of_one_element_are_refused(fmu_dir: Path) -> None:
+    with pytest.raises(ExoError, match=r"Lambda_n\[2\]: sets .*, and so does controller.Lambda_n\[1\.\.3\]"):
+        exo.batch("arm_contact", {"controller.Lambda_n[1..3]": [1.0], "controller.Lambda_n[2]": [5.0]}, fmu_dir=fmu_dir)
+
+
+def test_an_engine_that_is_not_there_is_refused(fmu_dir: Path) -> None:
+    wrong: Any = "fast"
+    with pytest.raises(ExoError, match="fast: expected one of fmpy, native"):
+        exo.batch("wall", {"controller.K": [1.0]}, cases=[WALL], engine=wrong, fmu_dir=fmu_dir)
+
+
+def test_a_failed_branch_is_told_by_its_own_reason_whatever_the_clearing_up_says(
+    fmu_dir: Path, monkeypatch: Any
+) -> None:
+    def refused(*_: object) -> None:
+        raise FmuError("fmi2FreeFMUstate returned fmi2Error")
+
+    monkeypatch.setattr(Instance, "free_state", refused)
+    found = exo.batch("wall", {"controller.K": [-1.0, 30.0]}, cases=[WALL], branch_at=19.0, fmu_dir=fmu_dir)
+    errors = found[FAILURE].to_pylist()
+    assert "K = -1" in errors[0]
+    assert errors[1] is None
+
+
+def test_a_row_that_memory_does_not_hold_is_a_row_with_its_reason(fmu_dir: Path, monkeypatch: Any) -> None:
+    plain = Part.resize
+
+    def resize(part: Part, steps: int) -> None:
+        if steps > 10**7:
+            raise MemoryError
+        plain(part, steps)
+
+    monkeypatch.setattr(Part, "resize", resize)
+    found = exo.batch("wall", {"duration": [60.0, 1e5, 60.0]}, cases=[WALL], fmu_dir=fmu_dir).to_pydict()
+    assert found[FAILURE] == [None, "out of memory; expected a shorter duration or a longer step", None]
+    assert found["tank"][0] == found["tank"][2]
 
 
 def test_a_branch_beyond_the_run_is_named(fmu_dir: Path) -> None:

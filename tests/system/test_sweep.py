@@ -8,8 +8,12 @@ import signal
 import socket
 import subprocess
 import sys
+import tempfile
 import time
 from collections import Counter
+from collections.abc import Iterator
+from concurrent.futures.process import BrokenProcessPool
+from contextlib import contextmanager
 from math import log10
 from pathlib import Path
 from typing import Any
@@ -22,7 +26,7 @@ import pytest
 from exo import sweep
 from exo.errors import ExoError
 from exo.runs import FAILURE
-from exo.sweep import store, study
+from exo.sweep import local, pictures, store, study
 from exo.sweep.pictures import front
 
 from commands import exo
@@ -65,7 +69,15 @@ def numbers(table: pa.Table) -> dict[str, list[Any]]:
     return {name: table[name].to_pylist() for name in table.column_names if name != store.SECONDS}
 
 
-def test_a_grid_has_every_point_once_and_a_picture(file: Path, fmu_dir: Path, tmp_path: Path) -> None:
+def test_a_grid_has_every_point_once_and_a_picture(file: Path, fmu_dir: Path, tmp_path: Path, monkeypatch: Any) -> None:
+    """Also where a machine that was switched off has left an empty part; and no file of an FMU stays behind."""
+    parts, temporary = tmp_path / "out" / "small" / "parts", tmp_path / "temporary"
+    parts.mkdir(parents=True)
+    for name in ("00000000.parquet", ".00000001.parquet.half"):
+        (parts / name).write_bytes(b"")
+    temporary.mkdir()
+    monkeypatch.setenv("TMPDIR", str(temporary))
+    monkeypatch.setattr(tempfile, "tempdir", str(temporary))
     told: list[sweep.Progress] = []
     done = sweep.sweep(file, out=tmp_path / "out", workers=2, fmu_dir=fmu_dir, tell=told.append)
     assert done.failed == 0
@@ -75,7 +87,25 @@ def test_a_grid_has_every_point_once_and_a_picture(file: Path, fmu_dir: Path, tm
     assert [path.name for path in done.pictures] == ["map.png"]
     assert done.pictures[0].stat().st_size > 10_000
     assert [told[0].done, told[-1].done] == [0, 6]
-    assert not list((done.folder / "parts").iterdir())
+    assert not list(parts.iterdir())
+    assert not list(temporary.glob("exo-*"))
+
+
+def test_a_pool_that_breaks_as_rows_are_sent_loses_none(
+    file: Path, fmu_dir: Path, tmp_path: Path, monkeypatch: Any
+) -> None:
+    plain, calls = local.ProcessPoolExecutor.submit, []
+
+    def submit(*arguments: Any) -> Any:
+        calls.append(arguments)
+        if len(calls) == 2:
+            raise BrokenProcessPool("a worker was killed")
+        return plain(*arguments)
+
+    monkeypatch.setattr(local.ProcessPoolExecutor, "submit", submit)
+    done = sweep.sweep(file, out=tmp_path / "out", workers=1, fmu_dir=fmu_dir)
+    assert done.failed == 0
+    assert done.table[store.ROW].to_pylist() == list(range(6))
 
 
 def test_a_sweep_that_is_done_is_not_run_again_and_pictures_may_change(
@@ -88,6 +118,11 @@ def test_a_sweep_that_is_done_is_not_run_again_and_pictures_may_change(
     file.write_text(WALL.replace("30.0]", "31.0]"))
     with pytest.raises(ExoError, match="another study: study, rows differ; expected another --out, or --fresh"):
         sweep.sweep(file, out=tmp_path / "out", workers=1, fmu_dir=fmu_dir)
+    file.write_text(WALL)
+    (first.folder / store.TABLE).write_bytes(b"half a table")
+    with pytest.raises(ExoError, match=r"runs\.parquet: cannot be read; expected another --out, or --fresh"):
+        sweep.sweep(file, out=tmp_path / "out", workers=1, fmu_dir=fmu_dir)
+    file.write_text(WALL.replace("30.0]", "31.0]"))
     fresh = sweep.sweep(file, out=tmp_path / "out", workers=1, fmu_dir=fmu_dir, fresh=True)
     assert fresh.table["controller.K"].to_pylist()[-1] == 31.0
 
@@ -118,9 +153,12 @@ def test_a_killed_sweep_goes_on_with_every_row_once(how: int, fmu_dir: Path, tmp
     file.write_text(LONG)
     killed = command(file, out, fmu_dir, "--workers", "2")
     wait_for_parts(out / "long", 3, killed)
-    # As Ctrl-C and as the system's killer: all of its processes get the signal.
-    os.killpg(killed.pid, how)
+    if how == signal.SIGKILL:
+        os.kill(killed.pid, how)
+    else:  # Ctrl-C goes to all of a terminal's processes
+        os.killpg(killed.pid, how)
     _, said = killed.communicate(timeout=60)
+    wait_for_the_last_of(killed.pid)
     assert killed.returncode == (-9 if how == signal.SIGKILL else 130), said
     before = store.Store.done(_store(out / "long"))
     assert 0 < len(before) < 300
@@ -130,6 +168,17 @@ def test_a_killed_sweep_goes_on_with_every_row_once(how: int, fmu_dir: Path, tmp
     assert done.table[store.ROW].to_pylist() == list(range(300))
     whole = sweep.sweep(file, out=tmp_path / "whole", workers=2, fmu_dir=fmu_dir)
     assert numbers(done.table) == numbers(whole.table)
+
+
+def wait_for_the_last_of(group: int) -> None:
+    """Until no process of the group runs."""
+    began = time.monotonic()
+    while True:
+        listed = subprocess.run(["ps", "-A", "-o", "pgid=,stat="], text=True, capture_output=True, check=True).stdout
+        if not any(line.split()[0] == str(group) and "Z" not in line.split()[1] for line in listed.splitlines()):
+            return
+        assert time.monotonic() - began < 30, "workers run without the process that gave them rows"
+        time.sleep(0.1)
 
 
 def _store(folder: Path) -> Any:
@@ -144,8 +193,12 @@ def test_two_sweeps_do_not_mix(fmu_dir: Path, tmp_path: Path) -> None:
     first = command(file, out, fmu_dir, "--workers", "1")
     try:
         wait_for_parts(out / "long", 1, first)
-        with pytest.raises(ExoError, match="another sweep works here"):
-            sweep.sweep(file, out=out, fmu_dir=fmu_dir)
+        before = set((out / "long").glob("parts/[0-9]*"))
+        for fresh in (False, True):
+            with pytest.raises(ExoError, match="another sweep works here"):
+                sweep.sweep(file, out=out, fmu_dir=fmu_dir, fresh=fresh)
+        assert before <= set((out / "long").glob("parts/[0-9]*"))
+        assert (out / "long" / store.STUDY).exists()
     finally:
         os.killpg(first.pid, signal.SIGKILL)
         first.communicate()
@@ -161,21 +214,26 @@ def test_a_row_that_fails_is_a_row_with_its_reason(file: Path, fmu_dir: Path, tm
 
 
 def test_a_worker_that_ends_costs_its_row_and_no_other(fmu_dir: Path, tmp_path: Path, monkeypatch: Any) -> None:
-    """The row with K = 20 ends the process that runs it."""
     file = tmp_path / "study.toml"
     file.write_text(WALL)
-    deadly = tmp_path / "sitecustomize.py"
-    deadly.write_text(
-        "import os, exo.runs as runs\n"
-        "plain = runs.Batch.run\n"
-        "def run(self, row):\n"
-        "    if row.get('controller.K') == 20.0:\n"
-        "        os._exit(7)\n"
-        "    return plain(self, row)\n"
-        "runs.Batch.run = run\n"
-    )
+    (tmp_path / "sitecustomize.py").write_text(DEADLY)
     monkeypatch.setenv("PYTHONPATH", str(tmp_path))
-    done = sweep.sweep(file, out=tmp_path / "out", workers=2, fmu_dir=fmu_dir)
+    assert_one_row_is_deadly(sweep.sweep(file, out=tmp_path / "out", workers=2, fmu_dir=fmu_dir))
+
+
+#: The rows with K = 20 end the process that runs them.
+DEADLY = """
+import os, exo.runs as runs
+plain = runs.Batch.run
+def run(self, row):
+    if row.get('controller.K') == 20.0:
+        os._exit(7)
+    return plain(self, row)
+runs.Batch.run = run
+"""
+
+
+def assert_one_row_is_deadly(done: sweep.Swept) -> None:
     errors = dict(zip(done.table["controller.K"].to_pylist(), done.table[FAILURE].to_pylist(), strict=True))
     assert done.failed == 2
     assert errors[10.0] is None
@@ -207,6 +265,36 @@ def test_a_cluster_finds_the_same_and_a_killed_worker_is_no_loss(cluster: Any, f
     assert killed
     assert there.table[store.ROW].to_pylist() == list(range(300))
     assert numbers(there.table) == numbers(here.table)
+
+
+@contextmanager
+def one_worker(folder: Path, startup: str, monkeypatch: Any) -> Iterator[str]:
+    """A cluster whose worker runs this first, and that gives a row up once its process has ended."""
+    dask, distributed = pytest.importorskip("dask"), pytest.importorskip("distributed")
+    (folder / "sitecustomize.py").write_text(startup)
+    monkeypatch.setenv("PYTHONPATH", str(folder))
+    settings = {"distributed.scheduler.allowed-failures": 0}
+    size: Any = {"n_workers": 1, "threads_per_worker": 1, "processes": True}
+    with (
+        dask.config.set(settings),
+        distributed.LocalCluster(**size, dashboard_address=None, silence_logs=50) as local_cluster,
+    ):
+        yield local_cluster.scheduler_address
+
+
+def test_a_row_that_ends_workers_of_a_cluster_costs_itself_and_no_other(
+    file: Path, fmu_dir: Path, tmp_path: Path, monkeypatch: Any
+) -> None:
+    with one_worker(tmp_path, DEADLY, monkeypatch) as address:
+        assert_one_row_is_deadly(sweep.sweep(file, out=tmp_path / "out", scheduler=address, fmu_dir=fmu_dir))
+
+
+def test_a_worker_without_exo_is_one_sentence(file: Path, fmu_dir: Path, tmp_path: Path, monkeypatch: Any) -> None:
+    with (
+        one_worker(tmp_path, "import sys\nsys.modules['exo'] = None\n", monkeypatch) as address,
+        pytest.raises(ExoError, match=r"a worker failed: .*exo.*; expected workers that have exo \d"),
+    ):
+        sweep.sweep(file, out=tmp_path / "out", scheduler=address, fmu_dir=fmu_dir)
 
 
 def start(*arguments: str) -> subprocess.Popen[bytes]:
@@ -260,9 +348,19 @@ def test_no_scheduler_is_one_sentence(
     assert f"--scheduler tcp://127.0.0.1:{free_port}: lost:" in " ".join(answer.stderr.split())
 
 
+@pytest.mark.parametrize("address", ["", "http://127.0.0.1:1", "tcp://127.0.0.1:port"])
+def test_what_is_no_address_is_refused_at_once(address: str, file: Path, fmu_dir: Path, tmp_path: Path) -> None:
+    answer = exo("sweep", file, "--out", tmp_path, "--fmu-dir", fmu_dir, "--scheduler", address)
+    assert answer.exit_code == 2
+    assert "expected an address as tcp://10.0.0.1:8786" in " ".join(answer.stderr.split())
+
+
 @pytest.mark.parametrize(
     ("old", "new", "said"),
     [
+        ("[10.0, 20.0, 30.0]", "[10.0, true]", "expected values of one kind, got the number 10.0, the Boolean True"),
+        ("cases", 'parameters = { "controller.K" = 5.0 }\ncases', "parameters.controller.K: is an axis, too"),
+        ("count = 2", "count = 1000000000", "3000000000 runs; expected at most 10000000"),
         ('scenario = "wall"', 'scenario = "wal"', "close matches: wall"),
         ('cases = ["passive_bounded_5_0.5"]', 'cases = ["none"]', "no such case"),
         ('"release_delay", "tank"', '"release_delai"', "close matches: release_delay"),
@@ -274,6 +372,7 @@ def test_no_scheduler_is_one_sentence(
         ('x = "controller.K"', 'x = "controller.D"', "no column controller.D"),
         ('kind = "map"', 'kind = "pie"', "figures.0.kind"),
         ('color = "release_delay"', "", "a map needs color"),
+        ("[10.0, 20.0, 30.0]", '["10"]', "controller.K holds texts; expected numbers to draw"),
         ('title = "Time', 'titel = "Time', "titel"),
         ("[axes", '[sampling]\nmethod = "sobol"\nsamples = 100\n[axes', "expected a power of 2, as 64 or 128"),
         ("[axes", '[sampling]\nmethod = "random"\n[axes', "method random: expected samples"),
@@ -324,6 +423,53 @@ def test_samples_are_spread_as_they_say_and_come_from_the_seed(method: str) -> N
 def test_a_front_has_what_no_other_point_beats() -> None:
     x, y = np.array([3.0, 1.0, 2.0, 2.0, 4.0, 1.0]), np.array([1.0, 5.0, 3.0, 2.0, 1.0, 6.0])
     assert [(x[i], y[i]) for i in front(x, y)] == [(1.0, 5.0), (2.0, 2.0), (3.0, 1.0)]
+
+
+POINTS = {
+    "a": [1.0, 2.0, 3.0, 4.0],
+    "b": [1.0, 2.0, 3.0, 4.0],
+    "z": [0.0, 0.4, 0.6, 0.9],
+    "yes": [True, True, True, False],
+}
+
+
+@pytest.mark.parametrize(
+    ("settings", "columns", "drawn"),
+    [
+        ({"limit": 0.5}, {}, 4),
+        ({"limit": 0.5}, {"b": [1.0] * 4}, 4),
+        ({"limit": 0.5}, {"a": [1.0] * 4, "b": [1.0] * 4}, 4),
+        ({"log": ["x"]}, {"a": [-1.0, -1.0, 2.0, 2.0], "b": [1.0, 2.0, 1.0, 2.0]}, 2),
+        ({"where": {"yes": 1.0}}, {}, 3),
+    ],
+    ids=["a slope", "a line", "one point", "no logarithm", "a Boolean"],
+)
+def test_points_that_are_no_map_are_drawn_as_what_they_are(
+    settings: dict[str, Any], columns: dict[str, Any], drawn: int, tmp_path: Path, monkeypatch: Any
+) -> None:
+    data = {"id": "f", "title": "f", "kind": "map", "x": "a", "y": "b", "color": "z", **settings}
+    seen = []
+    plain = pictures._map
+
+    def look(axes: Any, of: Any, figure: Any, numbers: Any) -> None:
+        seen.append(len(numbers["z"]))
+        plain(axes, of, figure, numbers)
+
+    monkeypatch.setattr(pictures, "_map", look)
+    figure = study.Figure.model_validate_json(json.dumps(data))
+    path = pictures.draw(figure, sampled("random"), pa.table({**POINTS, **columns}), tmp_path)
+    assert seen == [drawn]
+    assert path.stat().st_size > 5_000
+
+
+def test_a_figure_that_cannot_be_drawn_leaves_the_others_and_says_where_the_runs_are(
+    file: Path, fmu_dir: Path, tmp_path: Path
+) -> None:
+    nothing = '[[figures]]\nid = "none"\ntitle = "None"\nkind = "histogram"\nx = "tank"\nwhere = { tank = -7.0 }\n'
+    file.write_text(WALL.replace("[[figures]]", nothing + "[[figures]]"))
+    with pytest.raises(ExoError, match=r"figure none: no row has tank; the runs are in .*runs\.parquet"):
+        sweep.sweep(file, out=tmp_path, workers=1, fmu_dir=fmu_dir)
+    assert (tmp_path / "small" / "map.png").exists()
 
 
 def test_the_table_opens_in_parquet_with_what_was_asked_for_beside_it(

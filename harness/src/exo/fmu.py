@@ -6,6 +6,7 @@ NumPy buffers, because fmpy's convenience calls cost more than the models.
 
 import os
 import re
+import threading
 from collections import deque
 from collections.abc import Mapping
 from contextlib import ExitStack
@@ -44,7 +45,7 @@ STATUS = ("OK", "Warning", "Discard", "Error", "Fatal", "Pending")
 def find_fmu_dir(given: Path | None = None) -> Path:
     """The folder of archives: `given`, else the environment's EXO_FMU_DIR, else `target/fmu` here or further up."""
     if given is not None:
-        return given
+        return Path(given)
     if named := os.environ.get("EXO_FMU_DIR"):
         return Path(named)
     here = Path.cwd()
@@ -204,11 +205,14 @@ class References:
 #: in C), knows one Python logger per process; the instances are told apart by the environment that they were given.
 _MESSAGES: dict[int, deque[tuple[str, str]]] = {}
 _ENVIRONMENTS = count(1)
+#: fmpy changes the working directory while it loads a library, which is one for all threads.
+_LOADING = threading.Lock()
 
 
 def _log(environment: int, _instance: bytes, _status: int, category: bytes, message: bytes) -> None:
     if environment in _MESSAGES:
-        _MESSAGES[environment].append(((category or b"").decode(), (message or b"").decode(errors="replace")))
+        said = [(text or b"").decode(errors="replace") for text in (category, message)]
+        _MESSAGES[environment].append((said[0], said[1]))
 
 
 _LOGGER = fmi2CallbackLoggerTYPE(_log)
@@ -236,19 +240,20 @@ class Instance:
         self._callbacks = _callbacks(self._environment)
         description = archive.description
         library = archive.library
-        here = Path.cwd()
-        try:
-            self._slave: Any = FMU2Slave(
-                guid=description.guid,
-                unzipDirectory=archive.folder,
-                modelIdentifier=description.coSimulation.modelIdentifier,
-                instanceName=name,
-                libraryPath=str(library),
-            )
-        except Exception as error:  # of the system's loader and of fmpy, which leaves the working directory changed
-            os.chdir(here)
-            said = _said(error).replace(f"{archive.folder}/", "")
-            raise FmuError(f"{archive.path}: {said}") from error
+        with _LOADING:
+            here = Path.cwd()
+            try:
+                self._slave: Any = FMU2Slave(
+                    guid=description.guid,
+                    unzipDirectory=archive.folder,
+                    modelIdentifier=description.coSimulation.modelIdentifier,
+                    instanceName=name,
+                    libraryPath=str(library),
+                )
+            except Exception as error:  # of the system's loader and of fmpy, which leaves the working directory changed
+                os.chdir(here)
+                said = _said(error).replace(f"{archive.folder}/", "")
+                raise FmuError(f"{archive.path}: {said}") from error
 
     def function(self, name: str) -> Any:
         """A C function without argument types: give it ctypes objects. fmpy's own object keeps its types."""
@@ -312,7 +317,9 @@ class Instance:
     def reset(self) -> None:
         """fmi2Reset; an instance that refuses is made anew."""
         if int(self.function("fmi2Reset")(c_void_p(self.component))):
-            self._slave.freeInstance()
+            # Not fmpy's freeInstance: it unloads the library, too.
+            self._slave.fmi2FreeInstance(self._slave.component)
+            self._slave.component = None
             self._instantiate()
 
     def terminate(self) -> None:

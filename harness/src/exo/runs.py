@@ -17,12 +17,14 @@ goes on from there. A row then sets what may be set during a run: tunable parame
 """
 
 from collections.abc import Iterable, Mapping, Sequence
-from contextlib import ExitStack
+from contextlib import ExitStack, suppress
 from dataclasses import dataclass, replace
+from math import isfinite
 from pathlib import Path
 from types import TracebackType
 from typing import Any, Self
 
+import numpy as np
 import pyarrow as pa
 
 from exo import derived, preflight, selection, trial
@@ -70,15 +72,49 @@ def batch(
 
 
 def rows_of(parameters: Mapping[str, Sequence[Value]] | pa.Table) -> list[dict[str, Value]]:
-    """A table by columns as rows. ScenarioError, if the columns are not of one length."""
-    columns = parameters.to_pydict() if isinstance(parameters, pa.Table) else dict(parameters)
+    """A table by columns as rows. ScenarioError, if the columns are not of one length, or hold what no row can set."""
+    if isinstance(parameters, pa.Table) and len(set(parameters.column_names)) < parameters.num_columns:
+        raise ScenarioError(f"parameters: expected each column once, got {', '.join(parameters.column_names)}")
+    given = parameters.to_pydict() if isinstance(parameters, pa.Table) else dict(parameters)
+    columns = {key: _column(key, values) for key, values in given.items()}
     lengths = {key: len(values) for key, values in columns.items()}
     if len(set(lengths.values())) > 1:
         told = ", ".join(f"{key} has {length}" for key, length in lengths.items())
         raise ScenarioError(f"parameters: expected columns of one length, {told}")
+    return [dict(zip(columns, values, strict=True)) for values in zip(*columns.values(), strict=True)]
+
+
+def _column(key: object, values: Any) -> list[Value]:
+    if not isinstance(key, str) or isinstance(values, str | bytes) or not isinstance(values, Iterable):
+        raise ScenarioError(f"parameters: {key}: expected a name and a list of values, got {str(values)[:40]}")
     # What NumPy holds is made what TOML and Python have.
-    plain = [[getattr(value, "item", lambda value=value: value)() for value in values] for values in columns.values()]
-    return [dict(zip(columns, values, strict=True)) for values in zip(*plain, strict=True)]
+    plain = [value.item() if isinstance(value, np.generic) else value for value in values]
+    if wrong := unlike(plain):
+        raise ScenarioError(f"{key}: {wrong}")
+    return plain
+
+
+def unlike(values: Sequence[object]) -> str:
+    """What keeps these values out of one column of a table, as a sentence; else empty."""
+    kinds = {_kind(value): value for value in values}
+    for kind, value in kinds.items():
+        if not kind:
+            return f"expected a number of 64 bits, a text, or true or false, got {str(value)[:40]}"
+    told = ", ".join(f"the {kind} {str(value)[:40]}" for kind, value in kinds.items())
+    return "" if len(kinds) < 2 else f"expected values of one kind, got {told}"
+
+
+def _kind(value: object) -> str:
+    match value:
+        case bool():
+            return "Boolean"
+        case int() if abs(value) < 1 << 63:
+            return "number"
+        case float():
+            return "number"
+        case str():
+            return "text"
+    return ""
 
 
 @dataclass(frozen=True)
@@ -115,7 +151,7 @@ class Batch:
         """As `batch`. ScenarioError or FmuError, if something is wrong that no row could mend."""
         loaded = scenarios.load(scenario) if isinstance(scenario, str) else scenario
         self.scenario = _measured(selection.narrowed(loaded, cases=cases), tuple(metrics))
-        self.engine: Engine = engine or loops.fastest()
+        self.engine: Engine = loops.named(engine) if engine else loops.fastest()
         self._branch_at = branch_at
         self._folder = find_fmu_dir(fmu_dir)
         self._stack = ExitStack()
@@ -144,11 +180,13 @@ class Batch:
     ) -> None:
         self._stack.__exit__(kind, error, trace)
 
-    def check(self, rows: Iterable[Row]) -> None:
+    def check(self, rows: Sequence[Row]) -> None:
         """ScenarioError or FmuError for a key that no row can have; values are judged row by row."""
         for key in dict.fromkeys(key for row in rows for key in row):
             for case in self.scenario.cases:
                 self._key(key, self._runs[case.id].plan)
+        for row in {tuple(row): row for row in rows}.values():
+            _each_once(row)
 
     def run(self, row: Row) -> Outcome:
         """Runs all cases with what the row sets."""
@@ -159,6 +197,8 @@ class Batch:
             return Outcome(self._numbers(recordings))
         except ExoError as error:
             return Outcome({}, " ".join(str(error).split()))
+        except MemoryError:
+            return Outcome({}, "out of memory; expected a shorter duration or a longer step")
 
     def _shown(self, name: str) -> str:
         return name.split("/", 1)[0] if len(self.scenario.cases) == 1 else name
@@ -267,6 +307,18 @@ def _elements(key: str, name: str) -> list[str]:
         raise ScenarioError(f"{key}: {error}") from error
 
 
+def _each_once(row: Row) -> None:
+    """ScenarioError, if two keys of a row set the same element."""
+    owner: dict[str, str] = {}
+    for key in row:
+        component, _, name = key.partition(".")
+        elements_of = [] if key in TIMES or component == PROFILE else _elements(key, name)
+        for element in elements_of:
+            other = owner.setdefault(f"{component}.{element}", key)
+            if other != key:
+                raise ScenarioError(f"{key}: sets {component}.{element}, and so does {other}; expected one of them")
+
+
 def _time(key: str, value: Value) -> float:
     if isinstance(value, bool | str) or not 0.0 < value < float("inf"):
         raise ScenarioError(f"{key} = {value}: expected a time above 0 s")
@@ -337,10 +389,14 @@ class _Runs:
     def _close(self) -> None:
         if self._coupled is not None:
             coupled, self._coupled = self._coupled, None
-            if self._saved is not None:
-                coupled.free(self._saved)
+            try:
+                # An instance that has failed may refuse; what is left goes with it.
+                if self._saved is not None:
+                    with suppress(FmuError):
+                        coupled.free(self._saved)
+            finally:
                 self._saved = None
-            coupled.__exit__(None, None, None)
+                coupled.__exit__(None, None, None)
         self._ran = self._recording = None
 
     def keep(self, name: str) -> None:
@@ -392,7 +448,7 @@ class _Runs:
 
 
 def _ticks(at: float, of: Plan) -> int:
-    ticks = round(at / of.step)
+    ticks = round(at / of.step) if isfinite(at) else 0
     if not 0 < ticks < of.steps:
         raise ScenarioError(f"branch_at = {at:g} s: expected a time within the run, {of.step:g} to {of.duration:g} s")
     return ticks

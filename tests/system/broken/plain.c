@@ -1,6 +1,6 @@
 /* The smallest FMI 2.0 co-simulation FMU: input u (reference 0), output y = u (reference 1). Written against the
  * standard's text, not against this project's exporter. Each macro breaks one thing:
- * CRASH, SIGNAL, HANG, EXIT, FORK, LOUD, FLOOD, WARNS, ANY_GUID, NO_GUID, VERSION, EXTRA, HOME, INCOMPLETE, UNDEFINED;
+ * CRASH, SIGNAL, NO_RESET, DISCARD, CHATTER, HANG, EXIT, FORK, LOUD, FLOOD, WARNS, ANY_GUID, NO_GUID, VERSION, EXTRA, HOME, INCOMPLETE, UNDEFINED;
  * MARK names a file that is written when the library is loaded. */
 #include <signal.h>
 #include <stdio.h>
@@ -13,7 +13,6 @@
 #define VERSION "2.0"
 #endif
 
-typedef struct { double u; } Instance;
 typedef void *Component;
 typedef struct {
   void (*logger)(void *, const char *, int, const char *, const char *, ...);
@@ -22,6 +21,8 @@ typedef struct {
   void (*finished)(void *, int);
   void *environment;
 } Callbacks;
+
+typedef struct { double u; const Callbacks *callbacks; } Instance;
 
 enum { OK = 0, WARNING = 1, ERROR = 3 };
 
@@ -50,7 +51,9 @@ API Component fmi2Instantiate(const char *name, int type, const char *guid, cons
   fprintf(stderr, "hello from the FMU\n");
 #endif
   (void)guid;
-  return callbacks->allocate(1, sizeof(Instance));
+  Instance *made = callbacks->allocate(1, sizeof(Instance));
+  if (made) made->callbacks = callbacks;
+  return made;
 }
 API void fmi2FreeInstance(Component c) { free(c); }
 
@@ -95,6 +98,14 @@ API int fmi2DoStep(Component c, double t, double h, int no_set) {
 #ifdef HANG
   for (;;) pause();
 #endif
+#ifdef CHATTER
+  const Callbacks *callbacks = ((Instance *)c)->callbacks;
+  for (int i = 0; i < CHATTER; i++)
+    callbacks->logger(callbacks->environment, "plain", WARNING, "\xff", "line %d \xfe of t = %g", i, t);
+#endif
+#ifdef DISCARD
+  if (t >= DISCARD) return 2;
+#endif
 #ifdef WARNS
   return WARNING;
 #endif
@@ -104,7 +115,12 @@ API int fmi2DoStep(Component c, double t, double h, int no_set) {
 #define ACCEPTED(name) API int name(Component c) { (void)c; return OK; }
 #define REFUSED(name) API int name(Component c) { (void)c; return ERROR; }
 ACCEPTED(fmi2SetDebugLogging) ACCEPTED(fmi2SetupExperiment) ACCEPTED(fmi2EnterInitializationMode)
-ACCEPTED(fmi2ExitInitializationMode) ACCEPTED(fmi2Terminate) ACCEPTED(fmi2Reset)
+ACCEPTED(fmi2ExitInitializationMode) ACCEPTED(fmi2Terminate)
+#ifdef NO_RESET
+REFUSED(fmi2Reset)
+#else
+ACCEPTED(fmi2Reset)
+#endif
 REFUSED(fmi2GetInteger) REFUSED(fmi2GetBoolean) REFUSED(fmi2GetString)
 REFUSED(fmi2SetInteger) REFUSED(fmi2SetBoolean) REFUSED(fmi2SetString)
 REFUSED(fmi2GetFMUstate) REFUSED(fmi2SetFMUstate) REFUSED(fmi2FreeFMUstate)

@@ -25,7 +25,7 @@ from exo.runs import FAILURE, Batch
 from exo.sweep import cluster, local, pictures
 from exo.sweep.chunks import Queue
 from exo.sweep.local import Kept
-from exo.sweep.store import ROW, SECONDS, Store
+from exo.sweep.store import ROW, SECONDS, TABLE, Store
 from exo.sweep.study import Study, built_in, check_figures, load
 from exo.sweep.work import Task
 
@@ -92,10 +92,7 @@ def sweep(
         check_figures(study, [ROW, *rows[0], *runs.names, SECONDS])
     archives = {name: (folder / name).read_bytes() for name in names}
     checksums = {name: hashlib.sha256(data).hexdigest() for name, data in archives.items()}
-    store = Store(out, study, scenario, rows, checksums)
-    if fresh:
-        store.clear()
-    with store:
+    with Store(out, study, scenario, rows, checksums, fresh=fresh) as store:
         before = store.done()
         queue = Queue(rows, before)
         task = Task(
@@ -105,10 +102,10 @@ def sweep(
             metrics=study.metrics,
             branch_at=study.branch_at,
             engine=engine,
-            fmu_dir=None if scheduler else folder.resolve(),
+            fmu_dir=folder.resolve() if scheduler is None else None,
         )
         chunks: Iterator[Kept]
-        if scheduler:
+        if scheduler is not None:
             chunks = cluster.run(task, queue, scheduler=scheduler, archives=archives)
         else:
             chunks = local.run(task, queue, workers=workers or local.processors())
@@ -120,5 +117,12 @@ def sweep(
             failed += sum(one.outcome.error is not None for one in done)
             tell(Progress(finished, len(rows), len(before), failed))
         table = store.finish()
-        drawn = tuple(pictures.draw(figure, study, table, store.folder) for figure in study.figures)
-    return Swept(store.folder, table, drawn)
+        drawn, wrong = [], []
+        for figure in study.figures:
+            try:
+                drawn.append(pictures.draw(figure, study, table, store.folder))
+            except ExoError as error:
+                wrong.append(f"{error}; the runs are in {store.folder / TABLE}")
+    if wrong:
+        raise ExoError("\n".join(wrong))
+    return Swept(store.folder, table, tuple(drawn))

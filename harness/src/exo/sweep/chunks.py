@@ -45,7 +45,7 @@ class Queue:
         self._counted += len(done)
 
     def wait_again(self, chunk: Chunk) -> None:
-        """Rows that were under way when the cluster was lost."""
+        """Rows that have not begun, or that were under way when the cluster was lost."""
         self._waiting += [i for i, _ in reversed(chunk)]
 
     @property

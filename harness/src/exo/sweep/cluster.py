@@ -1,16 +1,20 @@
 """A sweep on a cluster, by Dask: `--scheduler tcp://…`. Workers need exo and `distributed`; the FMUs come with rows.
 
 A worker that is lost loses its chunks to others: Dask sends them again. A scheduler that is lost loses everything that
-was under way: when it is there again, the rows that are not kept are sent anew.
+was under way: when it is there again, the rows that are not kept are sent anew. Of a chunk that ends one worker after
+the other each row is sent alone.
 """
 
 import time
 from collections.abc import Iterator, Mapping
+from importlib import metadata
 from typing import Any
 
 from exo.errors import ExoError
+from exo.runs import Outcome
 from exo.sweep.chunks import Queue
-from exo.sweep.local import Kept
+from exo.sweep.local import ENDED, Kept
+from exo.sweep.store import Done
 from exo.sweep.work import Chunk, Task, run_chunk
 
 #: How long a scheduler may be away (s), and between two looks.
@@ -29,6 +33,8 @@ def run(task: Task, queue: Queue, *, scheduler: str, archives: Mapping[str, byte
                 for kept in _all(client, task, queue, running, archives):
                     lost_at = None
                     yield kept
+        except ExoError:
+            raise
         except _lost() as error:
             for chunk in running.values():
                 queue.wait_again(chunk)
@@ -39,6 +45,12 @@ def run(task: Task, queue: Queue, *, scheduler: str, archives: Mapping[str, byte
                     f"--scheduler {scheduler}: lost: {told}; what was finished is kept, the same command goes on"
                 ) from error
             time.sleep(LOOK_S)
+        except Exception as error:  # of a worker: of another version, without exo
+            told = " ".join(str(error).split())
+            raise ExoError(
+                f"--scheduler {scheduler}: a worker failed: {type(error).__name__}: {told}; "
+                f"expected workers that have exo {metadata.version('exo')}"
+            ) from error
 
 
 def _dask() -> Any:
@@ -64,8 +76,9 @@ def _client(scheduler: str) -> Any:
     distributed = _dask()
     try:
         return distributed.Client(scheduler, timeout=10, set_as_default=False)
-    except ValueError as error:
-        raise ExoError(f"--scheduler {scheduler}: {error}; expected an address as tcp://10.0.0.1:8786") from error
+    except (ValueError, TypeError, AssertionError) as error:
+        said = str(error) or "no address"
+        raise ExoError(f"--scheduler {scheduler}: {said}; expected an address as tcp://10.0.0.1:8786") from error
 
 
 def _all(
@@ -78,11 +91,19 @@ def _all(
         threads = max(1, sum(client.nthreads().values()))
         while len(queue) and len(running) < AHEAD * threads:
             chunk = queue.next()
-            future = client.submit(run_chunk, task, list(chunk), sent, pure=False, retries=3)
+            try:
+                future = client.submit(run_chunk, task, list(chunk), sent, pure=False, retries=3)
+            except BaseException:
+                queue.wait_again(chunk)
+                raise
             running[future] = chunk
             ended.add(future)
         future = next(ended)
-        names, done = future.result()
+        try:
+            names, done = future.result()
+            queue.learn(done)
+        except distributed.KilledWorker:
+            names, done = [], [Done(i, Outcome({}, ENDED), 0.0) for i in queue.give_back([running[future]])]
         del running[future]
-        queue.learn(done)
-        yield names, done
+        if done:
+            yield names, done

@@ -3,17 +3,21 @@
 import multiprocessing
 import os
 import signal
+import threading
 from collections.abc import Iterator
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
 from typing import Any
 
+from exo import extraction
 from exo.runs import Outcome
 from exo.sweep.chunks import Queue
 from exo.sweep.store import Done
 from exo.sweep.work import Chunk, Task, run_chunk
 
 Kept = tuple[list[str], list[Done]]
+#: How long a worker that was told to end may take (s).
+GONE_S = 2.0
 ENDED = "its process was ended twice; expected an FMU that returns"
 
 
@@ -40,16 +44,27 @@ def run(task: Task, queue: Queue, *, workers: int) -> Iterator[Kept]:
                 for future in running:
                     future.cancel()
                 _end(pool)
+        # Of the workers, which have not closed what they had open.
+        extraction.sweep()
 
 
 def _pool(workers: int) -> ProcessPoolExecutor:
     # A forked process would have this one's threads' locks.
-    return ProcessPoolExecutor(workers, mp_context=multiprocessing.get_context("spawn"), initializer=_ignore_interrupts)
+    return ProcessPoolExecutor(workers, mp_context=multiprocessing.get_context("spawn"), initializer=_begin)
 
 
-def _ignore_interrupts() -> None:
+def _begin() -> None:
     # Ctrl-C goes to all processes of a terminal; the first one decides.
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    threading.Thread(target=_end_with_parent, daemon=True).start()
+
+
+def _end_with_parent() -> None:
+    """A first process that is killed cannot end its workers."""
+    parent = multiprocessing.parent_process()
+    if parent is not None:
+        parent.join()
+        os._exit(1)
 
 
 def _until_broken(
@@ -59,7 +74,11 @@ def _until_broken(
         # One more than work: no worker waits for this process.
         while len(queue) and len(running) < (1 if queue.suspects else workers + 1):
             chunk = queue.next()
-            running[pool.submit(run_chunk, task, chunk)] = chunk
+            try:
+                running[pool.submit(run_chunk, task, chunk)] = chunk
+            except BrokenProcessPool:
+                queue.wait_again(chunk)
+                raise
         ended, _ = wait(running, return_when=FIRST_COMPLETED)
         for future in ended:
             names, done = future.result()
@@ -74,3 +93,6 @@ def _end(pool: ProcessPoolExecutor) -> None:
     pool.shutdown(wait=False, cancel_futures=True)
     for process in processes.values():
         process.terminate()
+    # Their folders can be removed once they are gone; an FMU that blocks the signal is not waited for.
+    for process in processes.values():
+        process.join(GONE_S)

@@ -1,14 +1,15 @@
 """A study's pictures: what came out over what was varied."""
 
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
 import matplotlib as mpl
 import numpy as np
 import pyarrow as pa
-import pyarrow.compute as pc
 from matplotlib import colors, pyplot
 from matplotlib.patches import Patch
+from matplotlib.tri import Triangulation
 from numpy.typing import NDArray
 
 from exo.errors import ExoError
@@ -32,10 +33,14 @@ def draw(figure: Figure, study: Study, table: pa.Table, folder: Path) -> Path:
     """Draws one figure into `<folder>/<id>.png`. ExoError, if no row has what it draws."""
     path = folder / f"{figure.id}.png"
     for name, value in figure.where.items():
-        table = table.filter(pc.equal(table[name], value))
+        table = table.filter(pa.array(_numbers(table, name) == value))
     wanted = [name for name in (figure.x, figure.y, figure.color, figure.contour) if name is not None]
     columns = {name: _numbers(table, name) for name in wanted}
     good = np.all([np.isfinite(column) for column in columns.values()], axis=0)
+    for axis, drawn in (("x", figure.x), ("y", figure.y)):
+        # What is 0 or below has no place on a logarithmic axis.
+        if drawn is not None and axis in figure.log:
+            good &= columns[drawn] > 0.0
     if not good.any():
         raise ExoError(f"{study.id}: figure {figure.id}: no row has {', '.join(wanted)}")
     columns = {name: column[good] for name, column in columns.items()}
@@ -99,7 +104,13 @@ def _map(axes: Any, study: Study, figure: Figure, columns: dict[str, Array]) -> 
         drawn = axes.scatter(x, y, c=z, s=size, norm=norm, cmap=colormap)
         of = columns[figure.contour or figure.color]
         if figure.limit is not None and len(of) > 3 and of.min() < figure.limit < of.max():
-            _limit(axes, axes.tricontour(x, y, of, levels=[figure.limit], colors=VERMILLION, linewidths=2), figure)
+            # Points on one straight line span no triangle: no line divides them.
+            triangles = None
+            with suppress(RuntimeError, ValueError):
+                triangles = Triangulation(x, y)
+            if triangles is not None:
+                line = axes.tricontour(triangles, of, levels=[figure.limit], colors=VERMILLION, linewidths=2)
+                _limit(axes, line, figure)
     axes.grid(visible=False)
     if yes_or_no:
         name = figure.color_label or _label(study, figure.color)

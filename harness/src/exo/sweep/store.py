@@ -46,13 +46,21 @@ class Store:
     """The folder of one study; locked while it is open, so that two sweeps do not mix."""
 
     def __init__(
-        self, out: Path, study: Study, scenario: Scenario, rows: Sequence[dict[str, Value]], fmus: dict[str, str]
+        self,
+        out: Path,
+        study: Study,
+        scenario: Scenario,
+        rows: Sequence[dict[str, Value]],
+        fmus: dict[str, str],
+        *,
+        fresh: bool = False,
     ) -> None:
-        """`fmus` are the archives' checksums by name."""
+        """`fmus` are the archives' checksums by name. `fresh` forgets what an earlier sweep has left."""
         self.folder = out / study.id
         self._rows = rows
         self._names: list[str] = []
         self._lock: int | None = None
+        self._fresh = fresh
         self._asked = {
             "study": study.model_dump(mode="json"),
             "scenario": scenario.model_dump(mode="json", exclude_defaults=True),
@@ -73,6 +81,9 @@ class Store:
         except OSError as error:
             raise ExoError(f"{self.folder}: another sweep works here; expected its end, or another --out") from error
         try:
+            if self._fresh:
+                self._clear()
+            self._drop_broken()
             self._check()
         except BaseException:
             self.__exit__()
@@ -109,15 +120,27 @@ class Store:
                 f"{self.folder}: holds the results of another study: {told} differ; expected another --out, or --fresh"
             )
 
-    def clear(self) -> None:
-        """Removes what an earlier sweep has left."""
+    def _drop_broken(self) -> None:
+        """Removes what a machine that was switched off has left half written: those rows run again."""
+        for path in (self.folder / PARTS).iterdir():
+            try:
+                whole = path.suffix == ".parquet" and ROW in pq.read_schema(path).names
+            except (OSError, pa.ArrowException):
+                whole = False
+            if not whole and path.is_file():
+                path.unlink()
+
+    def _clear(self) -> None:
         for path in [*(self.folder / PARTS).glob("*.parquet"), self.folder / STUDY, self.folder / TABLE]:
             path.unlink(missing_ok=True)
 
     def done(self) -> set[int]:
         """Numbers of the rows that have run."""
         if (self.folder / TABLE).exists():
-            return set(pq.read_table(self.folder / TABLE, columns=[ROW])[ROW].to_pylist())
+            try:
+                return set(pq.read_table(self.folder / TABLE, columns=[ROW])[ROW].to_pylist())
+            except (OSError, pa.ArrowException, KeyError) as error:
+                raise ExoError(f"{self.folder / TABLE}: cannot be read; expected another --out, or --fresh") from error
         found: set[int] = set()
         for path in self._parts():
             found.update(pq.read_table(path, columns=[ROW])[ROW].to_pylist())
@@ -166,6 +189,8 @@ class Store:
         sink = pa.BufferOutputStream()
         pq.write_table(table, sink, compression="zstd")
         folder.write_file(self.folder / TABLE, sink.getvalue().to_pybytes())
+        with (self.folder / TABLE).open("rb+") as file:
+            os.fsync(file.fileno())  # before the parts go
         for path in self._parts():
             path.unlink()
         return table

@@ -46,6 +46,7 @@ from scipy.stats import norm, qmc
 
 from exo import scenario as scenarios
 from exo.errors import ExoError, close_matches
+from exo.runs import unlike
 from exo.scenario import Data, Identifier, Line, Positive, Scenario, Value
 
 #: Runs of one study: their table is in memory.
@@ -75,6 +76,8 @@ class Axis(Data):
         )
         if [bool(self.values), ranged, normal].count(True) != 1:
             raise ValueError("expected one of: values; low and high; mean and deviation")
+        if wrong := unlike(self.values):
+            raise ValueError(f"values: {wrong}")
         if ranged and (self.low is None or self.high is None or not self.low < self.high):
             raise ValueError(f"low {self.low}, high {self.high}: expected two numbers, the lower first")
         if ranged and self.scale == "log" and not (self.low or 0.0) > 0.0:
@@ -173,12 +176,19 @@ class Study(Data):
     parameters: dict[str, Value] = Field(default={})
     figures: tuple[Figure, ...] = ()
 
+    @model_validator(mode="after")
+    def _sets_each_key_once(self) -> Self:
+        for key in self.parameters:
+            if key in self.axes:
+                raise ValueError(f"parameters.{key}: is an axis, too; expected one of them")
+        return self
+
     @property
     def size(self) -> int:
         """Number of runs."""
         if self.sampling.samples is not None:
             return self.sampling.samples
-        return math.prod(len(axis.points(key)) for key, axis in self.axes.items())
+        return math.prod(len(axis.values) or axis.count or 1 for axis in self.axes.values())
 
     def rows(self) -> list[dict[str, Value]]:
         """What each run sets, in order: the same for the same study and seed."""
@@ -252,3 +262,5 @@ def check_figures(study: Study, columns: list[str]) -> None:
         for name in (figure.x, figure.y, figure.color, figure.contour, *figure.where):
             if name is not None and name not in columns:
                 raise ExoError(f"{study.id}: figure {figure.id}: no column {name}{close_matches(name, columns)}")
+            if name in study.axes and any(isinstance(value, str) for value in study.axes[name].values):
+                raise ExoError(f"{study.id}: figure {figure.id}: {name} holds texts; expected numbers to draw")
