@@ -115,7 +115,7 @@ def check(
         raise FmuError(f"{path}: no such SSP archive: run `cargo xtask ssp` first")
     _ask_for_file(path)
     if path.suffix == ".ssp":
-        inside = partial(check, run=run, platforms=platforms, max_glibc=max_glibc)
+        inside = partial(check, run=run, dynamic=dynamic, platforms=platforms, max_glibc=max_glibc)
         of_system, left_out = ssp.findings(path, inside)
         return Report(path, tuple(of_system), tuple(left_out))
     with ExitStack() as stack:
