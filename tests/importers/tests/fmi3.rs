@@ -257,7 +257,7 @@ fn the_importer_refuses_units_and_drops_enumerations_of_fmi_3() {
     let read = |text: &str| Fmi3ModelDescription::deserialize(text).map_err(|e| e.to_string());
     for fmu in FMUS {
         let interface = fmu.interface().expect("legal");
-        let text = Standard::Fmi3.description(&interface);
+        let text = Standard::Fmi3.description(&interface, catalogue::PACKAGE);
         // When this is accepted one day, docs/importers.md must lose it, and `plain` goes.
         let refusal = read(&text).expect_err(fmu.name);
         assert!(refusal.contains("unknown field \"unit\""), "{refusal}");
