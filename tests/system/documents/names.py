@@ -30,7 +30,18 @@ OWN = ("tests/system/documents", "tests/system/test_documents.py")
 #: Folders that are made, not written.
 MADE = {".git", ".venv", "target", "results", "__pycache__"}
 #: Beginnings of paths that are none of this repository: made, or inside an archive.
-ELSEWHERE = ("http", "#", "target/", "results", "fmi3/", "binaries/", "documentation/", "resources/", "licenses/", "include/")
+ELSEWHERE = (
+    "http",
+    "#",
+    "target/",
+    "results",
+    "fmi3/",
+    "binaries/",
+    "documentation/",
+    "resources/",
+    "licenses/",
+    "include/",
+)
 #: Of files that are named without a folder; `wall.c` is a variable.
 ENDINGS = "rs|py|toml|md|json|xml|svg|png|jinja|txt|csv|h|ssv|ssd|lock|in"
 PATH = re.compile(rf"[\w.*{{}},+-]+(/[\w.*{{}},+-]*)+|[\w*{{}},+-]+\.({ENDINGS})")
