@@ -19,6 +19,7 @@ NOT_HERE = {
     "tune.png": "exo tune",
     "extra/": "in an FMU",
     "sources/": "in an FMU",
+    "fmi3Functions.h": "the standard's header",
     "terminalsAndIcons/": "in an FMU of FMI 3.0",
     "terminalsAndIcons.xml": "in an FMU of FMI 3.0",
     "SystemStructure.ssd": "in an SSP",
