@@ -11,8 +11,8 @@ use nalgebra::Vector3;
 
 impl ArmLaw {
     /// Counts from the joint angles `q_0` (rad) and from where the handle is there, from the next tick on: `q` of the
-    /// [`ArmInputs`], and p, p_n of the [`ArmOutputs`]. The [`Bounds`] stay where they are. Only while the law is out of the loop,
-    /// and in task space; in joint space nothing changes.
+    /// [`ArmInputs`], and p, p_n of the [`ArmOutputs`](crate::ArmOutputs). The [`Bounds`](admittance::Bounds) stay where they are.
+    /// Only while the law is out of the loop, and in task space; in joint space nothing changes.
     ///
     /// Single precision needs it, see [`displacement`](crate::displacement).
     ///
