@@ -1,6 +1,6 @@
 //! The C interfaces of any model: FMI 2.0 co-simulation, FMI 3.0 co-simulation and scheduled execution.
 //!
-//! A model is a struct whose fields are its variables ([`interface`], [`declaration`]) and which can be initialized and
+//! A model is a struct whose fields are its variables ([`interface`](macro@interface), [`declaration`]) and which can be initialized and
 //! stepped ([`Model`]). [`export!`] turns it into the 34 C functions of the standard. This crate knows no robot; the smallest
 //! model, an integrator, is in `examples/integrator.rs`.
 //! A model is a struct whose fields are its variables ([`fmu_declaration`]) and which can be initialized and stepped
