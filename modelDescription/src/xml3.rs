@@ -1,5 +1,5 @@
-//! `modelDescription.xml` of FMI 3.0. The elements are in [`schema3`](crate::schema3); units, log categories and the default
-//! experiment are those of FMI 2.0, [`xml`](crate::xml). What the standard says about the contents:
+//! `modelDescription.xml` of FMI 3.0. The elements are in [`schema3`](mod@crate::schema3); units, log categories and the default
+//! experiment are those of FMI 2.0, [`xml`](mod@crate::xml). What the standard says about the contents:
 //!
 //! * Exactly one variable is the independent one: `time` (section 2.4.7).
 //! * Inputs and parameters have a start value, what the model computes is `calculated` without one (2.4.7.5).
