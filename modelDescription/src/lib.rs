@@ -63,7 +63,6 @@
 
 #[cfg(feature = "write")]
 pub mod archive;
-#[cfg(feature = "write")]
 pub mod arrays;
 pub mod component;
 #[cfg(feature = "write")]
