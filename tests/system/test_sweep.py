@@ -13,7 +13,6 @@ import time
 from collections import Counter
 from collections.abc import Iterator
 from concurrent.futures.process import BrokenProcessPool
-from contextlib import contextmanager
 from math import log10
 from pathlib import Path
 from typing import Any
@@ -26,6 +25,7 @@ import pytest
 from exo import sweep
 from exo.errors import ExoError
 from exo.runs import FAILURE
+from exo.sweep import cluster as cluster_of
 from exo.sweep import local, pictures, store, study
 from exo.sweep.pictures import front
 
@@ -267,34 +267,22 @@ def test_a_cluster_finds_the_same_and_a_killed_worker_is_no_loss(cluster: Any, f
     assert numbers(there.table) == numbers(here.table)
 
 
-@contextmanager
-def one_worker(folder: Path, startup: str, monkeypatch: Any) -> Iterator[str]:
-    """A cluster whose worker runs this first, and that gives a row up once its process has ended."""
-    dask, distributed = pytest.importorskip("dask"), pytest.importorskip("distributed")
-    (folder / "sitecustomize.py").write_text(startup)
-    monkeypatch.setenv("PYTHONPATH", str(folder))
-    settings = {"distributed.scheduler.allowed-failures": 0}
-    size: Any = {"n_workers": 1, "threads_per_worker": 1, "processes": True}
-    with (
-        dask.config.set(settings),
-        distributed.LocalCluster(**size, dashboard_address=None, silence_logs=50) as local_cluster,
-    ):
+@pytest.fixture
+def threads() -> Iterator[str]:
+    """A cluster of one thread of this process."""
+    distributed = pytest.importorskip("distributed")
+    size: Any = {"n_workers": 1, "threads_per_worker": 1, "processes": False}
+    with distributed.LocalCluster(**size, dashboard_address=None, silence_logs=50) as local_cluster:
         yield local_cluster.scheduler_address
 
 
-def test_a_row_that_ends_workers_of_a_cluster_costs_itself_and_no_other(
-    file: Path, fmu_dir: Path, tmp_path: Path, monkeypatch: Any
+def test_a_worker_with_another_exo_is_refused(
+    threads: str, file: Path, fmu_dir: Path, tmp_path: Path, monkeypatch: Any
 ) -> None:
-    with one_worker(tmp_path, DEADLY, monkeypatch) as address:
-        assert_one_row_is_deadly(sweep.sweep(file, out=tmp_path / "out", scheduler=address, fmu_dir=fmu_dir))
-
-
-def test_a_worker_without_exo_is_one_sentence(file: Path, fmu_dir: Path, tmp_path: Path, monkeypatch: Any) -> None:
-    with (
-        one_worker(tmp_path, "import sys\nsys.modules['exo'] = None\n", monkeypatch) as address,
-        pytest.raises(ExoError, match=r"a worker failed: .*exo.*; expected workers that have exo \d"),
-    ):
-        sweep.sweep(file, out=tmp_path / "out", scheduler=address, fmu_dir=fmu_dir)
+    has = cluster_of.VERSION
+    monkeypatch.setattr(cluster_of, "VERSION", "99.0")
+    with pytest.raises(ExoError, match=rf"worker .*: exo: {re.escape(has)}; expected 99\.0"):
+        sweep.sweep(file, out=tmp_path / "out", scheduler=threads, fmu_dir=fmu_dir)
 
 
 def start(*arguments: str) -> subprocess.Popen[bytes]:

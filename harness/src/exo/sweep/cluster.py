@@ -1,8 +1,7 @@
 """A sweep on a cluster, by Dask: `--scheduler tcp://…`. Workers need exo and `distributed`; the FMUs come with rows.
 
 A worker that is lost loses its chunks to others: Dask sends them again. A scheduler that is lost loses everything that
-was under way: when it is there again, the rows that are not kept are sent anew. Of a chunk that ends one worker after
-the other each row is sent alone.
+was under way: when it is there again, the rows that are not kept are sent anew.
 """
 
 import time
@@ -11,16 +10,15 @@ from importlib import metadata
 from typing import Any
 
 from exo.errors import ExoError
-from exo.runs import Outcome
 from exo.sweep.chunks import Queue
-from exo.sweep.local import ENDED, Kept
-from exo.sweep.store import Done
+from exo.sweep.local import Kept
 from exo.sweep.work import Chunk, Task, run_chunk
 
 #: How long a scheduler may be away (s), and between two looks.
 PATIENCE_S, LOOK_S = 60.0, 1.0
 #: Chunks of a worker's thread that wait at the cluster.
 AHEAD = 2
+VERSION = metadata.version("exo")
 
 
 def run(task: Task, queue: Queue, *, scheduler: str, archives: Mapping[str, bytes]) -> Iterator[Kept]:
@@ -30,6 +28,7 @@ def run(task: Task, queue: Queue, *, scheduler: str, archives: Mapping[str, byte
         running: dict[Any, Chunk] = {}
         try:
             with _client(scheduler) as client:
+                _check(client, scheduler)
                 for kept in _all(client, task, queue, running, archives):
                     lost_at = None
                     yield kept
@@ -49,7 +48,7 @@ def run(task: Task, queue: Queue, *, scheduler: str, archives: Mapping[str, byte
             told = " ".join(str(error).split())
             raise ExoError(
                 f"--scheduler {scheduler}: a worker failed: {type(error).__name__}: {told}; "
-                f"expected workers that have exo {metadata.version('exo')}"
+                f"expected workers that have exo {VERSION}"
             ) from error
 
 
@@ -81,6 +80,23 @@ def _client(scheduler: str) -> Any:
         raise ExoError(f"--scheduler {scheduler}: {said}; expected an address as tcp://10.0.0.1:8786") from error
 
 
+def _check(client: Any, scheduler: str) -> None:
+    """ExoError, if a worker has another exo, or none: it would end with each row that it gets."""
+
+    # A function within a function goes to the workers as code: they need no exo to run it.
+    def version() -> str:
+        from importlib import metadata  # noqa: PLC0415
+
+        try:
+            return metadata.version("exo")
+        except metadata.PackageNotFoundError:
+            return "none"
+
+    for worker, has in client.run(version).items():
+        if has != VERSION:
+            raise ExoError(f"--scheduler {scheduler}: worker {worker}: exo: {has}; expected {VERSION}")
+
+
 def _all(
     client: Any, task: Task, queue: Queue, running: dict[Any, Chunk], archives: Mapping[str, bytes]
 ) -> Iterator[Kept]:
@@ -99,11 +115,7 @@ def _all(
             running[future] = chunk
             ended.add(future)
         future = next(ended)
-        try:
-            names, done = future.result()
-            queue.learn(done)
-        except distributed.KilledWorker:
-            names, done = [], [Done(i, Outcome({}, ENDED), 0.0) for i in queue.give_back([running[future]])]
+        names, done = future.result()
         del running[future]
-        if done:
-            yield names, done
+        queue.learn(done)
+        yield names, done
