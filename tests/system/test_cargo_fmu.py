@@ -107,7 +107,7 @@ def test_the_interface_from_the_library_is_that_from_the_declaration(tmp_path: P
     assert run.returncode == 0, run.stderr
     with (
         zipfile.ZipFile(fmu_dir / "test" / "integrator.fmu") as ours,
-        zipfile.ZipFile(tmp_path / "integrator.fmu") as theirs,
+        zipfile.ZipFile(tmp_path / "Integrator.fmu") as theirs,
     ):
         assert set(ours.namelist()) == set(theirs.namelist())
         # The libraries tell of the commit, which may have changed since ours was built.

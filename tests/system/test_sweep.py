@@ -135,6 +135,8 @@ def command(file: Path, out: Path, fmu_dir: Path, *more: str) -> subprocess.Pope
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         start_new_session=True,
+        # A job in the background has SIGINT ignored, and its children, too.
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),  # noqa: PLW1509  one thread here
     )
 
 
