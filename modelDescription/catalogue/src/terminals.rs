@@ -11,7 +11,7 @@
 //! `ExoskeletonArms` has one of each arm, `left_robot`, `right_robot`. A connection of one element of a vector is in no terminal,
 //! whose members are whole variables: so the testbed, of one axis, has no `hand`.
 
-use crate::wiring::{self, SENSOR, SERVO};
+use crate::wiring::{self, JOINT_SERVO, SENSOR, SERVO};
 use fmu_archive::arrays;
 use fmu_archive::{Connection, Matching, Member, Terminal};
 
@@ -56,7 +56,7 @@ const HAND: Bus = bus!(
 fn bus(connection: &Connection<'_>) -> &'static Bus {
     let human = [connection.from.0, connection.to.0].contains(&"HumanOperator");
     match connection.when {
-        SERVO => &DRIVE,
+        SERVO | JOINT_SERVO => &DRIVE,
         SENSOR => &FORCE_SENSOR,
         _ if human => &HAND,
         _ => &ROBOT,
@@ -175,6 +175,14 @@ mod tests {
                 ("ExoskeletonArms", "right_robot")
             ),
             text(&[("q", "right.q"), ("tau_a", "right.tau_a")])
+        );
+        assert_eq!(
+            pair(("ArmController", "drive"), ("ExoskeletonArm", "drive")),
+            text(&[
+                ("q_d", "q_d"),
+                ("dq_d", "dq_d"),
+                ("tau_a_measured", "tau_drive")
+            ])
         );
         assert_eq!(
             pair(("TestbedController", "drive"), ("Testbed", "drive")),

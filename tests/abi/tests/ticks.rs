@@ -424,7 +424,13 @@ fn second(fmu: &Fmu, settings: &[(&str, f64)], steps: u32, moved: &str) -> (Vec<
     for k in 0..steps {
         assert_eq!(instance.step(f64::from(k) * h, h), Status::OK);
     }
-    let outputs: Vec<_> = reals(fmu, "output").collect();
+    // A drive's torque is a mean over the last step, which is as long as the step.
+    let of_a_step = |reference: &u32| {
+        let variable = fmu.variables.iter().find(|v| v.reference == *reference);
+        variable.is_some_and(|v| v.name.contains("tau_drive"))
+    };
+    let mut outputs: Vec<_> = reals(fmu, "output").collect();
+    outputs.retain(|reference| !of_a_step(reference));
     let values = instance.get_real(&outputs).expect("outputs");
     let bits = values.into_iter().map(f64::to_bits).collect();
     (bits, instance.real(fmu.reference(moved)))
