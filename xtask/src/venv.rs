@@ -145,6 +145,13 @@ impl Venv {
         run(clean(program("python3", ["-m", "venv"])).arg(&self.folder))?;
         run(self.install().args(["-r", Packages::Run.lock()]))?;
         run(self.command(PIP_INSTALL).args([
+            "--require-hashes",
+            "--no-deps",
+            "--no-build-isolation",
+            "-r",
+            SOURCE_LOCK,
+        ]))?;
+        run(self.command(PIP_INSTALL).args([
             "--no-deps",
             "--no-build-isolation",
             "-e",
@@ -155,10 +162,7 @@ impl Venv {
 
     fn add_tests(&self, wanted: &str) -> Outcome {
         println!("adding to .venv what {} has", Packages::Test.lock());
-        // Both, because pip asks for the hash of every dependency.
-        run(self
-            .install()
-            .args(["-r", Packages::Run.lock(), "-r", Packages::Test.lock()]))?;
+        run(self.install().args(["-r", Packages::Test.lock()]))?;
         self.write_stamp(Packages::Test, wanted)
     }
 
@@ -179,7 +183,8 @@ impl Venv {
 
     fn install(&self) -> Command {
         let mut pip = self.command(PIP_INSTALL);
-        pip.args(["--require-hashes", "--only-binary=:all:"]);
+        // A lock names every package, so nothing is looked for beyond it.
+        pip.args(["--require-hashes", "--no-deps", "--only-binary=:all:"]);
         pip
     }
 
@@ -191,7 +196,7 @@ impl Venv {
     /// What the environment is made from: a change of any part means making it anew.
     fn wanted(&self, packages: Packages) -> Outcome<String> {
         let mut text = format!("{}\n", self.folder.display()); // an environment cannot be moved
-        for file in [packages.lock(), "harness/pyproject.toml"] {
+        for file in [packages.lock(), SOURCE_LOCK, "harness/pyproject.toml"] {
             let path = root().join(file);
             text += &std::fs::read_to_string(&path).map_err(at(&path))?;
         }
@@ -228,6 +233,9 @@ impl Venv {
         ))
     }
 }
+
+/// Packages that have no wheel.
+const SOURCE_LOCK: &str = "harness/requirements-source.lock";
 
 const PIP_INSTALL: [&str; 6] = [
     "-m",
