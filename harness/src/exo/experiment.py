@@ -9,7 +9,7 @@ from importlib import metadata
 from pathlib import Path
 from typing import Any
 
-from exo import derived, metrics, preflight, trial
+from exo import derived, metrics, preflight, requirements, trial
 from exo import overrides as settings
 from exo.errors import ScenarioError
 from exo.fmu import Archive, Instance
@@ -202,5 +202,9 @@ def evaluate(
             paper=lookup(ratio.paper) if ratio.paper else None,
             void_by=names if undefined else settings.void(ratio.rests_on, names),
         )
+    required = requirements.results(
+        requirements.built_in(), scenario=scenario.id, recordings=recordings, changed=changed
+    )
+    results |= {result.id: result for result in required}
     beside = [beside_the_paper(result) for result in results.values() if result.paper and result.paper.is_fair]
     return (*results.values(), *beside)

@@ -36,19 +36,11 @@ class Run(Data):
     record: Annotated[dict[str, Part], Field(min_length=1)]
 
 
-class Requirement(Data):
-    """What the paper asks of a controller."""
-
-    text: Line
-    source: Line
-    #: The runs that show a part of it.
-    runs: tuple[Identifier, ...]
-
-
 class Recipes(Data):
     """All runs by name, which is the experiment's."""
 
-    requirements: dict[Identifier, Requirement]
+    #: Of the paper's requirements, the runs that show a part of them.
+    shows: dict[Identifier, tuple[Identifier, ...]]
     runs: dict[Identifier, Run]
 
 

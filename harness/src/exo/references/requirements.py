@@ -1,16 +1,18 @@
 """`requirements.md` of an archive: what the paper asks for, and what the scenarios of its experiments are judged by."""
 
+from collections.abc import Mapping, Sequence
+
 from exo import scenario as scenarios
-from exo.references.recipes import Requirement
 from exo.references.record import Experiment
+from exo.requirements import built_in
 from exo.scenario import Check, Metric
 
 #: Of the paper's requirements a plant or a hand is no subject.
 CONTROLLERS = ("TestbedController", "ArmController")
 
 
-def text(name: str, requirements: dict[str, Requirement], experiments: list[Experiment]) -> str:
-    """The file's text for the FMU of this name."""
+def text(name: str, shows: Mapping[str, Sequence[str]], experiments: list[Experiment]) -> str:
+    """The file's text for the FMU of this name. `shows`: requirement of the paper → runs that show a part of it."""
     lines = [f"# Requirements: {name}", ""]
     if name in CONTROLLERS:
         lines += [
@@ -20,8 +22,9 @@ def text(name: str, requirements: dict[str, Requirement], experiments: list[Expe
             "|---|---|---|---|",
         ]
         here = {one.name for one in experiments}
-        for key, one in requirements.items():
-            runs = ", ".join(run for run in one.runs if run in here) or "–"
+        for key, run_names in shows.items():
+            one = built_in().requirements[key]
+            runs = ", ".join(run for run in run_names if run in here) or "–"
             lines.append(f"| `{key}` | {one.text} | {one.source} | {runs} |")
     else:
         lines += ["The paper asks nothing of this FMU: it is what the controller's requirements are shown on."]

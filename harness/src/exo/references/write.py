@@ -48,7 +48,7 @@ def contents(archives: Mapping[str, Archive]) -> dict[str, bytes]:
         found = sets.of(file, experiments)
         inside = {
             **{values.source: values.content(archives[file]) for values in found},
-            REQUIREMENTS: requirements.text(name, data.requirements, experiments).encode(),
+            REQUIREMENTS: requirements.text(name, data.shows, experiments).encode(),
             EXP: _experiments(name, experiments, found),
             MANIFEST: _manifest(experiments, found),
         }

@@ -1,0 +1,197 @@
+"""pytest plugin: scenarios and FMUs as fixtures, tolerance bands, and requirements as tests (docs/requirements.md).
+
+| fixture | what |
+|---|---|
+| `exo_fmu_dir` | folder of the archives: `--exo-fmu-dir`, else `$EXO_FMU_DIR` or target/fmu |
+| `exo_run` | runs a case of a scenario, each once a session; gives its `Recording` |
+| `exo_in_band` | fails where a signal leaves its tolerance band |
+
+`requirements.toml` and `*.requirements.toml` with requirements of exo are collected: a test for each requirement, place
+and case.
+"""
+
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import pytest
+
+if TYPE_CHECKING:
+    from exo.recording import Recording
+    from exo.requirements import Requirements
+    from exo.scenario import Scenario
+
+#: What is run for a session, by its file and what is changed.
+RUNS = pytest.StashKey[dict[tuple[Any, ...], Any]]()
+MARK = "requirements."
+
+
+def pytest_addoption(parser: pytest.Parser) -> None:
+    group = parser.getgroup("exo", "FMUs, scenarios and requirements of exo")
+    group.addoption("--exo-fmu-dir", type=Path, help="folder of the archives; else $EXO_FMU_DIR or target/fmu")
+    group.addoption("--exo-engine", default=None, help="fmpy or native; else native where it is installed")
+
+
+def pytest_collect_file(file_path: Path, parent: pytest.Collector) -> pytest.Collector | None:
+    if file_path.name != "requirements.toml" and not file_path.name.endswith(".requirements.toml"):
+        return None
+    try:
+        ours = f"[{MARK}" in file_path.read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError):
+        return None
+    return File.from_parent(parent, path=file_path) if ours else None
+
+
+@pytest.fixture(scope="session")
+def exo_fmu_dir(pytestconfig: pytest.Config) -> Path:
+    """Folder of the archives."""
+    return _fmu_dir(pytestconfig)
+
+
+@pytest.fixture(scope="session")
+def exo_run(pytestconfig: pytest.Config) -> "Callable[..., Recording]":
+    """`exo_run(scenario, case=None, duration=None, step=None, **{"controller.K": 1000})`: the case's `Recording`.
+
+    `scenario` is an id or a path of a .toml file; without `case` it must have one case. Seconds; other units are the
+    FMUs'. The same call runs once a session.
+    """
+
+    def run(
+        scenario: str | Path,
+        case: str | None = None,
+        *,
+        duration: float | None = None,
+        step: float | None = None,
+        **more: Any,
+    ) -> "Recording":
+        from exo.errors import ScenarioError  # noqa: PLC0415
+
+        loaded = _scenario(str(scenario))
+        ids = [one.id for one in loaded.cases]
+        if case is None and len(ids) != 1:
+            raise ScenarioError(f"{loaded.id}: expected case, one of {', '.join(ids)}")
+        done = _experiment(pytestconfig, loaded, (case or ids[0],), duration=duration, step=step, settings=more)
+        return next(iter(done.recordings.values()))  # type: ignore[no-any-return]
+
+    return run
+
+
+@pytest.fixture(scope="session")
+def exo_in_band() -> Callable[..., None]:
+    """Fails where a signal leaves the band around a reference; the arguments are those of `exo.bands.excess`."""
+
+    def check(**arguments: Any) -> None:
+        from exo.bands import excess  # noqa: PLC0415
+
+        found = excess(**arguments)
+        if found:
+            pytest.fail(f"leaves its band by {found.largest:.6g} at {found.at:g} s", pytrace=False)
+
+    return check
+
+
+class File(pytest.File):
+    """A file of requirements."""
+
+    def collect(self) -> "Iterator[Item]":
+        from exo.errors import ExoError  # noqa: PLC0415
+        from exo.requirements import load  # noqa: PLC0415
+
+        try:
+            requirements = load(self.path)
+            for name, one in requirements.requirements.items():
+                for key, shown in one.shown.items():
+                    beside = self.path.parent / f"{shown.scenario}.toml"
+                    scenario = _scenario(str(beside) if beside.is_file() else shown.scenario)
+                    for case in shown.meant(tuple(case.id for case in scenario.cases)):
+                        yield Item.from_parent(
+                            self, name=f"{name}.{key}[{case}]", requirements=requirements, scenario=scenario, case=case
+                        )
+        except ExoError as error:
+            raise self.CollectError(str(error)) from error
+
+
+class BrokenError(Exception):
+    """A requirement that does not hold; its text is what the user sees."""
+
+
+class Item(pytest.Item):
+    """One requirement in one case."""
+
+    def __init__(self, *, requirements: "Requirements", scenario: "Scenario", case: str, **more: Any) -> None:
+        super().__init__(**more)
+        self.requirements = requirements
+        self.scenario = scenario
+        self.case = case
+
+    def runtest(self) -> None:
+        from exo.requirements import PREFIX, results  # noqa: PLC0415
+
+        done = _experiment(self.config, self.scenario, (self.case,))
+        wanted = f"{PREFIX}{self.name.split('[')[0]}/{self.case}"
+        found = {
+            result.id: result
+            for result in results(
+                self.requirements,
+                scenario=self.scenario.id,
+                recordings={self.case: done.recordings[self.case]},
+                changed={self.case: ()},
+            )
+        }
+        result = found[wanted]
+        self.user_properties.append(("margin", f"{result.value:.6g} {result.unit}"))
+        if result.verdict == "fail":
+            raise BrokenError(
+                f"{result.title}: margin {result.value:.6g} {result.unit}, expected at least 0\n"
+                f"formula: {result.because}\n{result.source}"
+            )
+
+    def repr_failure(self, excinfo: pytest.ExceptionInfo[BaseException], style: Any = None) -> Any:
+        from exo.errors import ExoError  # noqa: PLC0415
+
+        if isinstance(excinfo.value, BrokenError | ExoError):
+            return str(excinfo.value)
+        return super().repr_failure(excinfo, style)
+
+    def reportinfo(self) -> tuple[Path, int | None, str]:
+        return self.path, None, f"requirement {self.name}"
+
+
+def _fmu_dir(config: pytest.Config) -> Path:
+    from exo.fmu import find_fmu_dir  # noqa: PLC0415
+
+    return find_fmu_dir(config.getoption("--exo-fmu-dir"))
+
+
+def _scenario(name: str) -> "Scenario":
+    from exo import scenario  # noqa: PLC0415
+
+    return scenario.load(name)
+
+
+def _experiment(
+    config: pytest.Config,
+    scenario: "Scenario",
+    cases: tuple[str, ...],
+    *,
+    duration: float | None = None,
+    step: float | None = None,
+    settings: dict[str, Any] | None = None,
+) -> Any:
+    from exo import experiment, loop  # noqa: PLC0415
+    from exo.selection import narrowed  # noqa: PLC0415
+
+    runs = config.stash.setdefault(RUNS, {})
+    given = {key: value for key, value in (("duration", duration), ("step", step)) if value is not None}
+    texts = {key: str(value) for key, value in (settings or {}).items()}
+    key = (scenario.model_dump_json(), cases, tuple(sorted(given.items())), tuple(sorted(texts.items())))
+    if key not in runs:
+        engine = config.getoption("--exo-engine")
+        runs[key] = experiment.run(
+            scenario=narrowed(scenario, cases=cases, duration=duration, step=step),
+            fmu_dir=_fmu_dir(config),
+            overrides=texts,
+            given=given,
+            engine=loop.named(engine) if engine else loop.fastest(),
+        )
+    return runs[key]

@@ -1,0 +1,193 @@
+"""Requirements in temporal logic: what a file may say, what a margin is, and where it is told."""
+
+import json
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from exo import experiment
+from exo import scenario as scenarios
+from exo.errors import ScenarioError
+from exo.fmu import find_fmu_dir
+from exo.recording import Recording
+from exo.requirements import PREFIX, built_in, formula, load, trace
+from exo.requirements.document import Requirements, Signal
+from exo.requirements.judged import results
+from exo.selection import narrowed
+
+from commands import exo
+
+STEP = 0.01
+
+
+def recorded(**columns: np.ndarray) -> Recording:
+    length = len(next(iter(columns.values())))
+    return Recording(
+        time=np.arange(length) * STEP,
+        columns={name.replace("__", "."): values for name, values in columns.items()},
+        units={},
+        parameters={"plant.limit": 2.0},
+        choices={},
+        profiles={},
+        wall_time=1.0,
+        cpu_time=1.0,
+    )
+
+
+def one(*, text: str = "always(x <= 1)", at: float = 0.0, **signals: object) -> Requirements:
+    shown: dict[str, object] = {"title": "t", "scenario": "mine", "formula": text, "at": at, "unit": "m"}
+    shown["signals"] = signals or {"x": "plant.x"}
+    return Requirements.model_validate({"requirements": {"r": {"text": "r", "source": "here", "shown": {"s": shown}}}})
+
+
+def margin(requirements: Requirements, run: Recording, *, changed: tuple[str, ...] = ()) -> float:
+    (result,) = results(requirements, scenario="mine", recordings={"a": run}, changed={"a": changed})
+    return result.value
+
+
+def test_the_margin_is_the_least_distance_from_breaking():
+    x = np.array([0.0, 0.4, 0.75, 0.3])
+    assert margin(one(), recorded(plant__x=x)) == pytest.approx(0.25)
+    assert margin(one(), recorded(plant__x=2 * x)) == pytest.approx(-0.5)
+
+
+def test_a_formula_looks_at_what_comes_after_its_time_only():
+    x = np.concatenate([np.full(50, 5.0), np.full(50, 0.5)])
+    assert margin(one(at=0.5), recorded(plant__x=x)) == pytest.approx(0.5)
+    assert margin(one(), recorded(plant__x=x)) == pytest.approx(-4.0)
+
+
+@pytest.mark.parametrize("late", [0, 1, 29, 30, 31, 60])
+def test_eventually_is_the_best_within_its_bounds_by_hand(late: int):
+    x = np.zeros(100)
+    x[late] = 3.0
+    best = max(x[:31]) - 1.0
+    found = margin(one(text="eventually[0:0.3](x >= 1)"), recorded(plant__x=x))
+    assert found == pytest.approx(best)
+
+
+def test_a_number_that_is_not_finite_breaks_a_requirement():
+    x = np.array([0.0, math.nan, 0.0])
+    (result,) = results(one(), scenario="mine", recordings={"a": recorded(plant__x=x)}, changed={"a": ()})
+    assert result.verdict == "fail"
+    assert math.isnan(result.value)
+
+
+def test_what_the_command_line_changes_makes_it_information():
+    (result,) = results(
+        one(), scenario="mine", recordings={"a": recorded(plant__x=np.array([5.0, 5.0]))}, changed={"a": ("plant.M",)}
+    )
+    assert (result.verdict, result.void_by) == ("info", ("plant.M",))
+
+
+def test_signals_are_what_their_names_say():
+    rng = np.random.default_rng(1)
+    f, v, g, w = rng.normal(size=(4, 200))
+    run = recorded(**{"a__f[1]": f, "a__f[2]": g, "a__v[1]": v, "a__v[2]": w})
+    both, along = ["a.f[1..2]"], ["a.v[1..2]"]
+
+    def signal(**data: object) -> np.ndarray:
+        return trace.signal(Signal.model_validate(data), run)
+
+    assert signal(norm=both) == pytest.approx(np.hypot(f, g))
+    assert signal(moved=both) == pytest.approx(np.hypot(f - f[0], g - g[0]))
+    assert signal(largest=both) == pytest.approx(np.maximum(abs(f), abs(g)))
+    assert signal(largest="a.f[1]", over="plant.limit") == pytest.approx(abs(f) / 2.0)
+    assert signal(parameter="plant.limit") == pytest.approx(np.full(200, 2.0))
+    power = f[:-1] * (v[1:] + v[:-1]) / 2 + g[:-1] * (w[1:] + w[:-1]) / 2
+    assert signal(work=both, along=along)[-1] == pytest.approx(power.sum() * STEP)
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        ({"text": "always(x <="}, "temporal logic"),
+        ({"text": "always(y <= 1)"}, "no signal y"),
+        ({"x": "plant.x", "z": "plant.z"}, "signal z"),
+        ({"x": {"norm": "a.b", "column": "a.b"}}, "column and norm"),
+        ({"x": {"work": ["a.f", "a.g"], "along": ["a.v"]}}, "expected as many"),
+        ({"x": {"work": "a.f"}}, "needs along"),
+        ({"x": {"nrom": "a.b"}}, "nrom"),
+    ],
+)
+def test_a_wrong_requirement_is_refused_by_name(change: dict[str, object], said: str):
+    with pytest.raises(ValueError, match=said):
+        one(**change)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize(
+    ("requirement", "said"),
+    [
+        (one(x="plant.y"), "no recorded column plant.y"),
+        (one(x={"parameter": "plant.q"}), "no parameter plant.q"),
+        (one(at=7.0), "within the run"),
+        (one(at=0.005), "multiple of the step"),
+        (one(text="always[0:0.0005](x <= 1)"), "formula"),
+    ],
+)
+def test_what_a_run_lacks_is_named_with_requirement_and_case(requirement: Requirements, said: str):
+    with pytest.raises(ScenarioError, match=r"requirement r\.s: case a") as error:
+        margin(requirement, recorded(plant__x=np.zeros(5)))
+    assert said in str(error.value)
+
+
+def test_a_file_that_is_wrong_says_where(tmp_path: Path):
+    path = tmp_path / "requirements.toml"
+    for text, said in (
+        ("[requirements", "end of a table"),
+        ("[requirements]", "requirements"),
+        ("a = 1979-05-27", "a"),
+    ):
+        path.write_text(text, encoding="utf-8")
+        with pytest.raises(ScenarioError, match=said):
+            load(path)
+    with pytest.raises(ScenarioError, match="cannot be read"):
+        load(tmp_path / "none.toml")
+
+
+def test_every_requirement_of_the_paper_and_of_the_project_finds_its_cases():
+    known = scenarios.built_in()
+    for name, requirement in built_in().requirements.items():
+        for key, shown in requirement.shown.items():
+            assert shown.scenario in known, (name, key)
+            cases = tuple(case.id for case in scenarios.load(shown.scenario).cases)
+            for pattern in shown.cases:
+                assert any(shown.model_copy(update={"cases": (pattern,)}).meant(cases)), (name, key, pattern)
+    assert [name for name, one in built_in().requirements.items() if one.of == "paper"] == [
+        "operator", "environment", "model",
+    ]  # fmt: skip
+
+
+def test_the_laws_that_stick_to_the_wall_break_the_requirement_that_the_bounded_law_meets():
+    requirement = built_in().requirements["environment"].shown["wall"]
+    every = requirement.model_copy(update={"cases": ("*_5_0.5",), "scenario": "wall"})
+    data = built_in().model_copy(
+        update={
+            "requirements": {
+                "environment": built_in().requirements["environment"].model_copy(update={"shown": {"wall": every}})
+            }
+        }
+    )
+    run = experiment.run(scenario=narrowed(scenarios.load("wall"), cases=["*_5_0.5"]), fmu_dir=find_fmu_dir(None))
+    found = results(data, scenario="wall", recordings=run.recordings, changed=dict.fromkeys(run.recordings, ()))
+    verdicts = {result.id.split("/")[1]: result.verdict for result in found}
+    assert verdicts["passive_bounded_5_0.5"] == "pass"
+    assert verdicts["standard_5_0.5"] == verdicts["passive_applied_5_0.5"] == "fail"
+
+
+def test_margins_stand_beside_the_metrics_of_a_run(tmp_path: Path):
+    done = exo("run", "gain_study", "--out", tmp_path, "--all", "--signals", "none")
+    assert done.exit_code == 0, done.output
+    assert f"{PREFIX}model.testbed/K30" in done.output
+    metrics = json.loads((tmp_path / "gain_study/metrics.json").read_text(encoding="utf-8"))["metrics"]
+    shown = metrics[f"{PREFIX}model.testbed/K30"]
+    assert (shown["verdict"], shown["unit"], shown["kind"]) == ("pass", "m", "at_least")
+    # K |e_nr|: the metric of the same run says it.
+    assert shown["value"] == pytest.approx(0.17 - 30.0 * metrics["max_error/K30"]["value"], abs=1e-12)
+    assert f"{PREFIX}model.testbed/K30" in (tmp_path / "junit.xml").read_text(encoding="utf-8")
+
+
+def test_the_words_of_the_language_are_no_signals():
+    assert formula.names("always((rise(a >= 1) and abs(b) <= 2e-3) implies eventually[0:0.5s](c >= d))") == set("abcd")
