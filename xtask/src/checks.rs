@@ -128,7 +128,7 @@ fn python() -> Outcome {
         let mut ruff = venv.command(["-m", "ruff"]);
         run(ruff
             .args(arguments)
-            .args(["harness", "tests/system", "benches"]))
+            .args(["harness", "tests/system", "benches", "docs/site"]))
     };
     ruff(&["check"])?;
     ruff(&["format", "--check"])?;

@@ -15,6 +15,7 @@
 //! | `cargo xtask law [--prefix DIR]` | the C library | `target/law/{f64,f32}`, and an installation in DIR |
 //! | `cargo xtask bench` | how fast the FMUs and the harness are | |
 //! | `cargo xtask native` | the harness' native engine, `exo run --engine native` | a wheel in `target/wheels`, installed into `.venv` |
+//! | `cargo xtask site` | the documentation as a site | `target/site/index.html` |
 //! | `cargo xtask venv [--tests]` | the Python environment of the others | `.venv` |
 //!
 //! | module | what |
@@ -133,6 +134,8 @@ enum Command {
     },
     /// Build the harness' native engine and install it into .venv: exo run --engine native
     Native,
+    /// Write the documentation as a site into target/site
+    Site,
     /// Create the Python environment .venv from harness/requirements.lock
     Venv {
         /// With what only tests, lints and benches need
@@ -152,6 +155,7 @@ fn main() -> ExitCode {
         Command::Stage { name } => checks::one(&name),
         Command::Law { bless, prefix } => law::build_all(bless, prefix.as_deref()),
         Command::Native => stages::native(venv::Packages::Run),
+        Command::Site => stages::site(),
         Command::Reproduce => stages::reproduce(),
         Command::Adversary { minutes, seed } => stages::adversary(minutes, seed),
         Command::Fuzz(request) => fuzz::fuzz(&request),

@@ -49,6 +49,17 @@ pub fn venv(tests: bool) -> Outcome {
     Venv::ready(packages).map(|_| ())
 }
 
+/// `cargo xtask site`: the documentation; a dead link is an error.
+pub fn site() -> Outcome {
+    let venv = Venv::ready(Packages::Test)?;
+    let mut build = venv.command(["-m", "mkdocs", "build", "--quiet"]);
+    // What Material for MkDocs says about another product.
+    build.env("NO_MKDOCS_2_WARNING", "1");
+    stage("mkdocs", || run(&mut build))?;
+    println!("site: target/site/index.html");
+    Ok(())
+}
+
 /// `cargo xtask native`: the harness' native engine as a wheel, installed into the environment.
 pub fn native(packages: Packages) -> Outcome {
     let venv = Venv::ready(packages)?;
