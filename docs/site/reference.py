@@ -44,13 +44,8 @@ def fmu(model: ET.Element) -> str:
     types = {one.get("name"): one for one in model.iterfind("TypeDefinitions/SimpleType")}
     variables = list(model.iterfind("ModelVariables/ScalarVariable"))
     for causality in CAUSALITIES:
-        rows = [
-            row
-            for row in _rows(
-                [v for v in variables if v.get("causality", "local") == causality],
-                types,
-            )
-        ]
+        own = [v for v in variables if v.get("causality", "local") == causality]
+        rows = _rows(own, types)
         if rows:
             lines += [
                 f"## {_heading(causality)}",
