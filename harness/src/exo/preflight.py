@@ -12,10 +12,10 @@ from typing import Any
 from exo import derived, metrics
 from exo.errors import FmuError, ScenarioError, close_matches
 from exo.fmu import Archive
+from exo.master import Plan
 from exo.paper import lookup
 from exo.profile import SAME_INSTANT
 from exo.scenario import DERIVED, MINUS, PROFILE, Metric, Scenario
-from exo.simulate import Plan
 
 #: By how much a ratio of two times may miss a whole number.
 WHOLE = 1e-9
