@@ -167,6 +167,11 @@ def choices(variable: Any) -> dict[str, int]:
     return {name: int(number) for number, name in (item.split() for item in listed[1].split(", "))} if listed else {}
 
 
+def unit_of(variable: Any) -> str:
+    """The unit of a variable or of its type; empty where neither has one."""
+    return str(variable.unit or getattr(variable.declaredType, "unit", None) or "")
+
+
 def _description(path: Path) -> Any:
     """What fmpy reads of a co-simulation FMU, version 2.0, whose variables have the variability of their type."""
     try:
