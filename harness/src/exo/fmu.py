@@ -40,6 +40,9 @@ LARGEST, LARGEST_INTEGER = float(np.finfo(np.float64).max), int(np.iinfo(np.int3
 #: Letters of another program's message.
 QUOTED = 400
 STATUS = ("OK", "Warning", "Discard", "Error", "Fatal", "Pending")
+DISCARD = STATUS.index("Discard")
+#: Of fmi2StatusKind.
+LAST_SUCCESSFUL_TIME, TERMINATED = 2, 3
 
 
 def find_fmu_dir(given: Path | None = None) -> Path:
@@ -295,8 +298,22 @@ class Instance:
 
     def fail(self, function: str, status: int) -> FmuError:
         """The error for a call that returned another status than OK."""
+        if function == "fmi2DoStep" and status == DISCARD and (end := self._ended_at()) is not None:
+            return FmuError(f"{self.name}: has ended the simulation at t = {end:.6g} s; expected a shorter duration")
         named = f"fmi2{STATUS[status]}" if 0 <= status < len(STATUS) else f"{status}, which is no status"
         return FmuError(f"{self.name}: {function} returned {named}: {self.last_message()}")
+
+    def _ended_at(self) -> float | None:
+        """When the FMU ended the simulation (s), where that is why it discarded a step."""
+        ended, last = c_int(0), c_double(0.0)
+        asked = (("fmi2GetBooleanStatus", TERMINATED, ended), ("fmi2GetRealStatus", LAST_SUCCESSFUL_TIME, last))
+        for name, kind, answer in asked:
+            try:
+                if self.function(name)(c_void_p(self.component), c_int(kind), byref(answer)):
+                    return None
+            except FmuError:
+                return None
+        return last.value if ended.value else None
 
     def _call(self, name: str, *arguments: Any) -> None:
         status = int(self.function(name)(c_void_p(self.component), *arguments))

@@ -17,7 +17,7 @@ from exo.plan import Plan
 from exo.scenario import PROFILE, Segment, Value
 
 Array = NDArray[np.float64]
-#: A number that is held, or a choice's item; a function of the instants (s); a value for each tick; terms of a sum.
+#: A number that is held, or an item of a choice; a function of the instants (s); a value for each tick; terms of a sum.
 Signal = Value | Callable[[Array], Any] | Sequence[float] | NDArray[Any] | Sequence[Mapping[str, Any]]
 
 
