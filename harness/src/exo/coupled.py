@@ -115,6 +115,7 @@ class Coupled:
             for name, archive in self._archives.items():
                 inputs = [key.split(".", 1)[1] for key in self._plan.inputs if key.split(".", 1)[0] == name]
                 outputs = [one for one in archive.names("output") if self._is_kept(f"{name}.{one}")]
+                outputs += [key.split(".", 1)[1] for key in self._plan.recorded if key.split(".", 1)[0] == name]
                 instance = stack.enter_context(Instance(archive, name))
                 self._parts[name] = Part(instance, inputs=inputs, outputs=outputs, steps=self._plan.steps)
                 for kind, refs in instance.references(archive.names("parameter")).items():

@@ -64,13 +64,15 @@ class Archive:
     FmuError names what is wrong: no file, no archive that is safe to extract, no description of a co-simulation FMU.
     """
 
-    def __init__(self, path: Path) -> None:
+    def __init__(self, path: Path, *, strict: bool = True) -> None:
+        """`strict`: a description that breaks FMI's rules is an error; else `problems` has what fmpy says of it."""
         if not path.is_file():
             raise FmuError(f"{path}: no such FMU: run `cargo xtask fmu` first")
         self.path = path
         with ExitStack() as stack:
             self._files = tuple(opened(path, stack).files)
-        self.description: Any = _description(path)
+        self.description: Any
+        self.description, self.problems = _description(path, strict=strict)
         self.variables: dict[str, Any] = {v.name: v for v in self.description.modelVariables}
         self._extraction = Extraction(path)
         self._references: dict[tuple[tuple[str, ...], Kind], References] = {}
@@ -175,18 +177,25 @@ def unit_of(variable: Any) -> str:
     return str(variable.unit or getattr(variable.declaredType, "unit", None) or "")
 
 
-def _description(path: Path) -> Any:
-    """What fmpy reads of a co-simulation FMU, version 2.0, whose variables have the variability of their type."""
+def _description(path: Path, *, strict: bool) -> tuple[Any, str]:
+    """What fmpy reads of a co-simulation FMU, version 2.0, and what is wrong of it; empty, if nothing is."""
+    problems = ""
     try:
         description = fmpy.read_model_description(str(path))
     except Exception as error:  # fmpy raises what its parser and its validation raise, and plain exceptions
-        raise FmuError(f"{path}: modelDescription.xml: {_said(error)}") from error
+        problems = _said(error)
+        try:
+            if strict:
+                raise
+            description = fmpy.read_model_description(str(path), validate=False)
+        except Exception:
+            raise FmuError(f"{path}: modelDescription.xml: {problems}") from error
     if description.fmiVersion != "2.0" or description.coSimulation is None:
         kind = "without co-simulation" if description.coSimulation is None else ""
         raise FmuError(
             f"{path}: expected an FMI 2.0 co-simulation FMU, got FMI {description.fmiVersion} {kind}".rstrip()
         )
-    return description
+    return description, problems
 
 
 def _said(error: Exception) -> str:

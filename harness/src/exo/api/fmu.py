@@ -53,6 +53,8 @@ class Fmu:
     tool: str
     #: The step that it proposes (s); None where it proposes none.
     step: float | None
+    #: What of the description breaks the standard, as fmpy says it; empty, if nothing does. `exo validate` says more.
+    problems: str
     #: In the order of the description.
     variables: Mapping[str, Variable]
 
@@ -120,7 +122,9 @@ class Fmu:
 
     def _title(self) -> str:
         what = f"{self.path.name} {self.version}".strip()
-        return f"{what}: {len(self.inputs)} inputs, {len(self.outputs)} outputs, {len(self.parameters)} parameters"
+        counts = f"{len(self.inputs)} inputs, {len(self.outputs)} outputs, {len(self.parameters)} parameters"
+        broken = f"; `exo validate {self.path.name}` says where it breaks the standard" if self.problems else ""
+        return f"{what}: {counts}{broken}"
 
     def _short(self) -> Any:
         return self.frame()[list(SHORT[1:])].fillna("")
@@ -133,7 +137,7 @@ def load(fmu: str | PathLike[str], *, fmu_dir: str | PathLike[str] | None = None
     here or further up. FmuError, if there is none, or it is no FMI 2.0 FMU for co-simulation.
     """
     path = _found(Path(fmu), None if fmu_dir is None else Path(fmu_dir))
-    archive = Archive(path)
+    archive = Archive(path, strict=False)
     description = archive.description
     experiment = description.defaultExperiment
     return Fmu(
@@ -143,6 +147,7 @@ def load(fmu: str | PathLike[str], *, fmu_dir: str | PathLike[str] | None = None
         description=str(description.description or ""),
         tool=str(description.generationTool or ""),
         step=_number(experiment.stepSize if experiment else None),
+        problems=archive.problems,
         variables=MappingProxyType({name: _variable(archive, name) for name in archive.variables}),
     )
 

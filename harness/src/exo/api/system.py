@@ -33,6 +33,8 @@ class System:
     coupling: Coupling
     #: Inputs that come one step late under `one_sample_delay`.
     delayed: tuple[str, ...]
+    #: Variables that are recorded besides outputs and wired inputs.
+    recorded: tuple[str, ...]
 
     @property
     def unwired(self) -> tuple[str, ...]:
@@ -63,6 +65,7 @@ def couple(
     step: float | None = None,
     coupling: Coupling = "zero_delay",
     delayed: Iterable[str] = (),
+    record: Iterable[str] = (),
 ) -> System:
     """Wires FMUs.
 
@@ -71,6 +74,7 @@ def couple(
     output of type Real turns its sign over. `step` (s) may be left out where FMUs propose one and none another.
     `coupling` is `zero_delay` (each sees what those before it have just put out), `one_sample_delay` (the same, but
     inputs in `delayed` come a step later) or `exchange_at_once` (all outputs are read before anything steps).
+    `record` names variables that are no outputs, to be recorded as well: `"plant.x"`, `"plant.p[1..3]"`.
 
     ScenarioError for a name or wire that does not fit; FmuError for a file, or variables that cannot be wired.
     """
@@ -89,7 +93,8 @@ def couple(
         wires=MappingProxyType(_wires(wires or {}, loaded)),
         step=_step(step, loaded),
         coupling=coupling,
-        delayed=_delayed(delayed),
+        delayed=_listed("delayed", delayed),
+        recorded=_recorded(record, loaded),
     )
     for name in system.delayed:
         if name not in system.wires:
@@ -109,12 +114,13 @@ def plan_of(system: System, *, duration: float) -> Plan:
         coupling=system.coupling,
         duration=duration,
         step=system.step,
+        recorded=system.recorded,
     )
 
 
 def archives_of(system: System) -> dict[str, Archive]:
     """An archive for each component, none of them open: two of one FMU share no library."""
-    return {name: Archive(fmu.path) for name, fmu in system.fmus.items()}
+    return {name: Archive(fmu.path, strict=False) for name, fmu in system.fmus.items()}
 
 
 def _wires(wires: Mapping[str, str], fmus: Mapping[str, Fmu]) -> dict[str, str]:
@@ -131,11 +137,29 @@ def _wires(wires: Mapping[str, str], fmus: Mapping[str, Fmu]) -> dict[str, str]:
         raise ScenarioError(f"wires: {error}") from error
 
 
-def _delayed(names: Iterable[str]) -> tuple[str, ...]:
+def _listed(what: str, names: Iterable[str]) -> tuple[str, ...]:
     try:
         return tuple(one for name in ([names] if isinstance(names, str) else names) for one in elements(name))
     except ValueError as error:
-        raise ScenarioError(f"delayed: {error}") from error
+        raise ScenarioError(f"{what}: {error}") from error
+
+
+def _recorded(names: Iterable[str], fmus: Mapping[str, Fmu]) -> tuple[str, ...]:
+    """What is not recorded anyway; Strings are no signals."""
+    found: dict[str, None] = {}
+    for name in _listed("record", names):
+        component, _, variable = name.partition(".")
+        if component not in fmus:
+            raise ScenarioError(f"record: {name}: no component {component}{close_matches(component, fmus)}")
+        declared = fmus[component][variable]
+        if declared.type == "String" or declared.causality == "input":
+            raise ScenarioError(
+                f"record: {name}: expected a variable that is a number and no input, this is "
+                f"{declared.causality} of type {declared.type}; a wired input is recorded by itself"
+            )
+        if declared.causality != "output":
+            found[name] = None
+    return tuple(found)
 
 
 def _step(step: Any, fmus: Mapping[str, Fmu]) -> float:
