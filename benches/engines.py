@@ -26,7 +26,7 @@ from typing import Any
 
 import numpy as np
 
-from exo import simulate
+from exo import master
 from exo.coupled import Coupled
 from exo.fmu import Archive, find_fmu_dir
 from exo.loop import Part, native
@@ -190,7 +190,7 @@ def measured(fmu_dir: Path, library: CDLL) -> list[Row]:
     """All rows."""
     scenario = load("wall")
     case = next(one for one in scenario.cases if one.id == CASE)
-    plan = replace(simulate.plan(scenario=scenario, case=case), duration=STEPS * STEP)
+    plan = replace(master.plan(scenario=scenario, case=case), duration=STEPS * STEP)
     files = ("TestbedController.fmu", "Testbed.fmu")
     with Archive(fmu_dir / files[0]) as controller, Archive(fmu_dir / files[1]) as plant:
         archives = {archive.path.name: archive for archive in (controller, plant)}

@@ -9,7 +9,7 @@ import numpy as np
 from exo import scenario as scenarios
 from exo.experiment import Experiment
 from exo.fmu import Archive
-from exo.simulate import plan, simulate
+from exo.master import plan, simulate
 
 SCENARIO = "arm_both"
 

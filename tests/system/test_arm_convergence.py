@@ -11,9 +11,9 @@ import pytest
 from numpy.typing import NDArray
 
 from exo.fmu import Archive
+from exo.master import plan, simulate
 from exo.recording import Recording
 from exo.scenario import load
-from exo.simulate import plan, simulate
 
 Run = Callable[[float], Recording]
 DEFAULT = 1e-4

@@ -8,7 +8,7 @@ import pytest
 from fmpy.ssp.ssd import read_ssv
 
 from exo import presets, scenario, theory
-from exo.cli import preset_settings
+from exo.commands.scenarios import preset_settings
 from exo.errors import ScenarioError
 from exo.experiment import Experiment
 from exo.fmu import Archive

@@ -11,8 +11,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from exo import master
 from exo import scenario as scenarios
-from exo import simulate
 from exo.fmu import Archive
 from exo.recording import Recording
 
@@ -73,7 +73,7 @@ class Difference:
 class Record:
     """A case that has been run, and its controller."""
 
-    plan: simulate.Plan
+    plan: master.Plan
     run: Recording
     archive: Archive
 
@@ -128,8 +128,8 @@ def record(archives: Mapping[str, Archive]) -> Callable[[str, str], Record]:
     def of(scenario: str, case: str) -> Record:
         if (scenario, case) not in done:
             loaded = scenarios.load(scenario)
-            plan = simulate.plan(scenario=loaded, case=next(c for c in loaded.cases if c.id == case))
-            run = simulate.simulate(plan=plan, archives=archives)
+            plan = master.plan(scenario=loaded, case=next(c for c in loaded.cases if c.id == case))
+            run = master.simulate(plan=plan, archives=archives)
             done[scenario, case] = Record(plan=plan, run=run, archive=archives[plan.components["controller"]])
         return done[scenario, case]
 

@@ -9,9 +9,9 @@ import pytest
 from exo import experiment as experiments
 from exo import plots
 from exo.errors import ScenarioError
+from exo.master import plan
 from exo.scenario import load
 from exo.selection import narrowed
-from exo.simulate import plan
 
 SCENARIO = "communication_step"
 

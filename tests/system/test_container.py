@@ -15,9 +15,9 @@ import numpy as np
 import pytest
 
 from exo.fmu import Archive
+from exo.master import simulate
 from exo.recording import Recording
 from exo.scenario import PROFILE
-from exo.simulate import simulate
 from exo.systems import container, system
 from exo.validate import problems
 

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from exo import loop, simulate
+from exo import loop, master
 from exo.errors import ExoError, FmuError
 from exo.fmu import Archive
 from exo.pace import Deadlines
@@ -31,8 +31,8 @@ def archives(fmu_dir: Path) -> Any:
 
 
 def both(scenario: Scenario, case: Case, archives: dict[str, Archive], **changes: Any) -> list[Recording]:
-    plan = replace(simulate.plan(scenario=scenario, case=case), **changes)
-    return [simulate.simulate(plan=plan, archives=archives, engine=engine) for engine in loop.ENGINES]
+    plan = replace(master.plan(scenario=scenario, case=case), **changes)
+    return [master.simulate(plan=plan, archives=archives, engine=engine) for engine in loop.ENGINES]
 
 
 def assert_equal(runs: list[Recording]) -> None:
@@ -47,7 +47,7 @@ def assert_equal(runs: list[Recording]) -> None:
 def test_every_case_is_equal_bit_for_bit(name: str, archives: dict[str, Archive]) -> None:
     scenario = load(name)
     for case in scenario.cases:
-        plan = simulate.plan(scenario=scenario, case=case)
+        plan = master.plan(scenario=scenario, case=case)
         # The forces act where they act: what is cut is the end, and a long step makes the run reach them.
         runs = both(scenario, case, archives, duration=min(plan.duration, STEPS * plan.step))
         assert_equal(runs)
@@ -69,14 +69,14 @@ def test_whole_runs_are_equal_in_every_coupling(
 
 def test_a_failing_call_is_the_same_error_at_the_same_time(archives: dict[str, Archive]) -> None:
     scenario = load("wall")
-    plan = simulate.plan(scenario=scenario, case=scenario.cases[0])
+    plan = master.plan(scenario=scenario, case=scenario.cases[0])
     force = next(source.removeprefix("profile.") for key, source in plan.inputs.items() if key == "plant.tau_h")
     # From half a second on it is infinite.
     broken = Segment(kind="table", amplitude=1e200, points=((0.0, 0.0), (0.499, 0.0), (0.5, 1e200)))
     said = []
     for engine in loop.ENGINES:
         with pytest.raises(FmuError) as caught:
-            simulate.simulate(
+            master.simulate(
                 plan=replace(plan, profiles={**plan.profiles, force: (broken,)}), archives=archives, engine=engine
             )
         said.append(str(caught.value))
@@ -88,7 +88,7 @@ def test_a_failing_call_is_the_same_error_at_the_same_time(archives: dict[str, A
 def test_other_threads_run_meanwhile(archives: dict[str, Archive]) -> None:
     """The native loop lets go of the interpreter: a thread that counts gets on as if alone."""
     scenario = load("wall")
-    plan = simulate.plan(scenario=scenario, case=scenario.cases[0])
+    plan = master.plan(scenario=scenario, case=scenario.cases[0])
     longest, ended = [0.0], threading.Event()
 
     def look() -> None:
@@ -101,7 +101,7 @@ def test_other_threads_run_meanwhile(archives: dict[str, Archive]) -> None:
     thread = threading.Thread(target=look)
     thread.start()
     try:
-        run = simulate.simulate(plan=replace(plan, duration=plan.duration * 40), archives=archives, engine="native")
+        run = master.simulate(plan=replace(plan, duration=plan.duration * 40), archives=archives, engine="native")
     finally:
         ended.set()
         thread.join()
@@ -134,9 +134,9 @@ def test_a_run_by_the_clock_takes_its_time_and_finds_the_same(
     engine: loop.Engine, archives: dict[str, Archive]
 ) -> None:
     scenario = load("wall")
-    plan = replace(simulate.plan(scenario=scenario, case=scenario.cases[0]), duration=0.4)
-    plain = simulate.simulate(plan=plan, archives=archives)
-    paced = simulate.simulate(plan=plan, archives=archives, engine=engine, real_time=True)
+    plan = replace(master.plan(scenario=scenario, case=scenario.cases[0]), duration=0.4)
+    plain = master.simulate(plan=plan, archives=archives)
+    paced = master.simulate(plan=plan, archives=archives, engine=engine, real_time=True)
     assert_equal([plain, paced])
     assert plain.deadlines is None
     found = paced.deadlines

@@ -18,7 +18,7 @@ from lxml import etree
 
 from exo import scenario as scenarios
 from exo.fmu import Archive
-from exo.simulate import plan, simulate
+from exo.master import plan, simulate
 
 from foreign import box3
 from foreign.matrix import NAMES_SCHEDULED, ROOT, names

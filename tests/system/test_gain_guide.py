@@ -9,7 +9,7 @@ import pytest
 from exo import scenario as scenarios
 from exo.experiment import Experiment
 from exo.fmu import Archive
-from exo.simulate import plan, simulate
+from exo.master import plan, simulate
 from exo.tuning import region
 from exo.tuning.machine import Gains, Machine
 

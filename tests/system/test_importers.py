@@ -14,9 +14,9 @@ import pytest
 from lxml import etree
 
 from exo.fmu import Archive
+from exo.master import Plan, simulate
 from exo.profile import evaluate
 from exo.scenario import PROFILE, Value
-from exo.simulate import Plan, simulate
 from exo.systems import system
 from exo.validate import problems
 

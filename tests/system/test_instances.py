@@ -9,9 +9,9 @@ import pytest
 from fmpy.fmi2 import FMU2Slave
 
 from exo.fmu import Archive
+from exo.master import Plan, plan, simulate
 from exo.profile import evaluate
 from exo.scenario import Segment, load
-from exo.simulate import Plan, plan, simulate
 
 TICKS = 5000
 

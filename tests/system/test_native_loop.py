@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from exo import simulate
+from exo import master
 from exo.fmu import Archive
 from exo.profile import evaluate
 from exo.scenario import load
@@ -32,7 +32,7 @@ def native_loop() -> Path:
 )
 def test_native_and_fmpy_loop_agree(scenario: str, case: str, native_loop: Path, fmu_dir: Path, tmp_path: Path) -> None:
     loaded = load(scenario)
-    plan = simulate.plan(scenario=loaded, case=next(c for c in loaded.cases if c.id == case))
+    plan = master.plan(scenario=loaded, case=next(c for c in loaded.cases if c.id == case))
     time = np.arange(plan.steps) * plan.step
     forces = {name: evaluate(segments=segments, time=time) for name, segments in plan.profiles.items()}
     forces.setdefault("tau_d", np.zeros(plan.steps))
@@ -40,7 +40,7 @@ def test_native_and_fmpy_loop_agree(scenario: str, case: str, native_loop: Path,
     (tmp_path / "in.csv").write_text("t,tau_h,tau_d\n" + "".join(f"{t!r},{h!r},{d!r}\n" for t, h, d in rows))
 
     with Archive(fmu_dir / "TestbedController.fmu") as controller, Archive(fmu_dir / "Testbed.fmu") as plant:
-        run = simulate.simulate(plan=plan, archives={a.path.name: a for a in (controller, plant)})
+        run = master.simulate(plan=plan, archives={a.path.name: a for a in (controller, plant)})
         settings = []
         for name, value in plan.parameters.items():
             component, variable = name.split(".", 1)

@@ -14,7 +14,7 @@ import pytest
 from exo import __version__, overrides, preflight, results, scenario, selection
 from exo.expansion import home
 from exo.expansion.schema import schema
-from exo.simulate import plan
+from exo.master import plan
 
 from commands import SHORT, exo
 

@@ -125,7 +125,7 @@ def test_a_thinned_line_keeps_the_peaks_and_never_runs_back() -> None:
     time = np.linspace(0.0, 60.0, 30001)
     values = np.sin(time)
     values[12345] = 7.0
-    thin_time, thin = plots._thinned(time, values)
+    thin_time, thin = plots.thinned(time, values)
     assert len(thin) <= plots.PLOTTED_POINTS + 2
     assert (np.diff(thin_time) >= 0.0).all()
     assert thin.max() == 7.0

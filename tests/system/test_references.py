@@ -18,11 +18,11 @@ from typer.testing import CliRunner
 
 from exo.cli import app
 from exo.fmu import Archive
+from exo.master import simulate
 from exo.references import experiments, manifest, recipes, record, sets, write
 from exo.references.names import FOLDER, MANIFEST
 from exo.references.record import Experiment
 from exo.references.replay import replay
-from exo.simulate import simulate
 
 from conftest import NAMES
 

@@ -10,7 +10,7 @@ import pyarrow as pa
 import pytest
 
 import exo
-from exo import experiment, loop, metrics, scenario, selection, simulate
+from exo import experiment, loop, master, metrics, scenario, selection
 from exo.coupled import Coupled
 from exo.errors import ExoError, FmuError
 from exo.fmu import Archive, Instance
@@ -92,7 +92,7 @@ def test_rows_that_branch_off_equal_runs_whose_gain_changes_then(engine: loop.En
 def changed(K: float, *, at: float, engine: loop.Engine, fmu_dir: Path) -> float:
     """The time to let go of one whole run, without a saved state, whose gain is set under way."""
     loaded = selection.narrowed(scenario.load("wall"), cases=[WALL])
-    of = simulate.plan(scenario=loaded, case=loaded.cases[0])
+    of = master.plan(scenario=loaded, case=loaded.cases[0])
     metric = next(one for one in loaded.metrics if one.id == "release_delay")
     with ExitStack() as stack:
         archives = {name: stack.enter_context(Archive(fmu_dir / name)) for name in of.components.values()}

@@ -14,7 +14,7 @@ from exo import preflight, scenario
 from exo.errors import ExoError
 from exo.expansion import home
 from exo.fmu import Archive
-from exo.simulate import plan
+from exo.master import plan
 
 from commands import SHORT
 

@@ -7,21 +7,21 @@ from typing import Any
 import numpy as np
 import pytest
 
-from exo import loop, profile, simulate
+from exo import loop, master, profile
 from exo.errors import ExoError, FmuError
 from exo.fmu import Archive, Instance
 from exo.scenario import Segment, load
 
 
-def job(**changes: Any) -> simulate.Plan:
+def job(**changes: Any) -> master.Plan:
     scenario = load("gain_study")
-    plan = simulate.plan(scenario=scenario, case=scenario.cases[2])
+    plan = master.plan(scenario=scenario, case=scenario.cases[2])
     return replace(plan, duration=0.1, **changes)
 
 
 def test_the_controller_engages_at_the_plant_s_start_position(archives: Mapping[str, Archive]) -> None:
     start = job()
-    run = simulate.simulate(
+    run = master.simulate(
         plan=replace(start, parameters={**start.parameters, "plant.q_start": -0.25}), archives=archives
     )
     assert run["plant.q"][0] == -0.25
@@ -42,12 +42,12 @@ def test_wired_inputs_are_set_before_initialization_ends(
 
     monkeypatch.setattr(loop, "run", looked_at)
     start = job()
-    simulate.simulate(plan=replace(start, parameters={**start.parameters, "plant.q_start": -0.25}), archives=archives)
+    master.simulate(plan=replace(start, parameters={**start.parameters, "plant.q_start": -0.25}), archives=archives)
     assert after == {"controller": {"q_n": -0.25, "e_nr": 0.0}, "plant": {"q": -0.25}}
 
 
 def test_sampled_outputs_belong_to_the_tick_and_continuous_ones_to_its_instant(archives: Mapping[str, Archive]) -> None:
-    run = simulate.simulate(plan=job(), archives=archives)
+    run = master.simulate(plan=job(), archives=archives)
     assert run["controller.tick"].tolist() == list(range(50))
     assert run.time[49] == pytest.approx(0.098, abs=1e-15)
     # e_nr = q_n − q at the same instant; half an ulp of each of the three numbers.
@@ -56,7 +56,7 @@ def test_sampled_outputs_belong_to_the_tick_and_continuous_ones_to_its_instant(a
 
 
 def test_all_parameters_are_read_back(archives: Mapping[str, Archive]) -> None:
-    run = simulate.simulate(plan=job(), archives=archives)
+    run = master.simulate(plan=job(), archives=archives)
     assert run.parameter("controller.law") == 2
     assert run.choice("controller.law") == "passive"
     with pytest.raises(ExoError, match=r"no enumeration parameter controller\.K"):
@@ -79,12 +79,12 @@ def test_all_parameters_are_read_back(archives: Mapping[str, Archive]) -> None:
 )
 def test_wrong_wiring_is_named(inputs: dict[str, str], message: str, archives: Mapping[str, Archive]) -> None:
     with pytest.raises(FmuError, match=message):
-        simulate.simulate(plan=job(inputs=inputs), archives=archives)
+        master.simulate(plan=job(inputs=inputs), archives=archives)
 
 
 def test_a_source_with_a_minus_is_turned_over(archives: Mapping[str, Archive]) -> None:
     start = job()
-    run = simulate.simulate(
+    run = master.simulate(
         plan=replace(
             start,
             inputs={**start.inputs, "plant.tau_d": "-controller.tau_a", "plant.tau_h": "-profile.tau_h"},
@@ -106,13 +106,13 @@ def test_a_refusal_in_the_loop_says_when_and_in_the_fmu_s_words(
 
     monkeypatch.setattr(profile, "evaluate", broken)
     with pytest.raises(FmuError, match=r"controller: fmi2SetReal returned fmi2Error: .*tau_h.*\(step at t = 0\.02 s\)"):
-        simulate.simulate(plan=job(), archives=archives)
+        master.simulate(plan=job(), archives=archives)
 
 
 def test_a_profile_drives_a_boolean_input_from_a_half_on(archives: Mapping[str, Archive]) -> None:
     ramp = Segment(kind="constant", amplitude=1.0, t_on=0.02, ramp=0.04)
     start = job()
-    run = simulate.simulate(
+    run = master.simulate(
         plan=replace(
             start,
             inputs={**start.inputs, "controller.engage": "profile.engage"},
@@ -128,7 +128,7 @@ def test_a_profile_drives_a_boolean_input_from_a_half_on(archives: Mapping[str, 
 
 def test_a_boolean_output_drives_a_boolean_input(archives: Mapping[str, Archive]) -> None:
     start = job()
-    run = simulate.simulate(
+    run = master.simulate(
         plan=replace(start, inputs={**start.inputs, "controller.engage": "controller.saturated"}), archives=archives
     )
     # Nothing is ever engaged by what only an engaged controller shows.

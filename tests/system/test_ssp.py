@@ -22,8 +22,8 @@ from lxml import etree
 from exo import profile
 from exo.errors import FmuError, ScenarioError
 from exo.fmu import Archive
+from exo.master import Plan, simulate
 from exo.scenario import PROFILE, Segment
-from exo.simulate import Plan, simulate
 from exo.systems import ssp, system
 
 SCHEMAS = Path(fmpy.ssp.__file__).parent / "schema"

@@ -21,10 +21,10 @@ from typer.testing import CliRunner, Result
 from exo.cli import app
 from exo.errors import ScenarioError
 from exo.fmu import Archive
+from exo.master import Plan, simulate
 from exo.profile import evaluate
 from exo.recording import Recording
 from exo.scenario import Segment
-from exo.simulate import Plan, simulate
 from exo.systems import closed, ssp, system
 
 from foreign.ecos import tbb

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from exo.fmu import Archive
-from exo.simulate import simulate
+from exo.master import simulate
 from exo.systems import closed, ssp
 from exo.systems.form import SSP_2, Form
 from exo.systems.system import System

@@ -11,8 +11,8 @@ from scipy.optimize import brentq
 from exo import scenario as scenarios
 from exo import theory
 from exo.fmu import Archive
+from exo.master import plan, simulate
 from exo.metrics.growth import growth_rate
-from exo.simulate import plan, simulate
 from exo.theory import Hand, Loop
 from exo.tuning import nyquist, region
 from exo.tuning.machine import Gains, Machine

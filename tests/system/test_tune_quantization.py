@@ -8,7 +8,7 @@ import pytest
 
 from exo import scenario as scenarios
 from exo.fmu import Archive, find_fmu_dir
-from exo.simulate import plan, simulate
+from exo.master import plan, simulate
 from exo.tuning import quantization, reading
 from exo.tuning.machine import Gains, Machine
 

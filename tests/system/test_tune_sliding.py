@@ -13,8 +13,8 @@ from exo import scenario as scenarios
 from exo.errors import ExoError
 from exo.fmu import Archive, find_fmu_dir
 from exo.handle import handle_of
+from exo.master import plan, simulate
 from exo.recording import Recording
-from exo.simulate import plan, simulate
 from exo.tuning import reading, region, sliding
 from exo.tuning.friction import Friction, Stribeck
 from exo.tuning.machine import Gains, Machine

@@ -6,8 +6,8 @@ from pathlib import Path
 
 from exo.fmu import Archive, find_fmu_dir
 from exo.loop import ENGINES, Engine
+from exo.master import plan, simulate
 from exo.scenario import load
-from exo.simulate import plan, simulate
 
 #: What the loop must reach at 500 Hz.
 WANTED_FACTOR = 100.0

@@ -23,7 +23,7 @@ from numpy.typing import NDArray
 
 from exo import loop, profile
 from exo.errors import ExoError, FmuError, ScenarioError
-from exo.fmu import DTYPES, Archive, Instance, Kind, References, choices
+from exo.fmu import DTYPES, Archive, Instance, Kind, References, choices, unit_of
 from exo.loop import Engine, Part, Wire
 from exo.pace import Pace
 from exo.plan import Plan
@@ -115,6 +115,7 @@ class Coupled:
             for name, archive in self._archives.items():
                 inputs = [key.split(".", 1)[1] for key in self._plan.inputs if key.split(".", 1)[0] == name]
                 outputs = [one for one in archive.names("output") if self._is_kept(f"{name}.{one}")]
+                outputs += [key.split(".", 1)[1] for key in self._plan.recorded if key.split(".", 1)[0] == name]
                 instance = stack.enter_context(Instance(archive, name))
                 self._parts[name] = Part(instance, inputs=inputs, outputs=outputs, steps=self._plan.steps)
                 for kind, refs in instance.references(archive.names("parameter")).items():
@@ -216,7 +217,7 @@ class Coupled:
         """What has been recorded. `lazily`: columns are taken when they are asked for, before the next run."""
         if lazily not in self._units:
             self._units[lazily] = {
-                key: _unit(self._archives[key.split(".", 1)[0]], key.split(".", 1)[1])
+                key: unit_of(self._archives[key.split(".", 1)[0]].variable(key.split(".", 1)[1]))
                 for key in self._names(everything=lazily)
             }
         units = self._units[lazily]
@@ -300,8 +301,3 @@ def _initialize(plan: Plan, parts: dict[str, Part], wires: list[Wire]) -> None:
     for part in parts.values():
         part.instance.exit_initialization_mode()
         part.read_row(0)
-
-
-def _unit(archive: Archive, name: str) -> str:
-    variable = archive.variable(name)
-    return str(variable.unit or getattr(variable.declaredType, "unit", None) or "")

@@ -14,10 +14,10 @@ from exo import overrides as settings
 from exo.errors import ScenarioError
 from exo.fmu import Archive, Instance
 from exo.loop import Engine
+from exo.master import Plan, plan, simulate
 from exo.paper import lookup
 from exo.recording import Recording
 from exo.scenario import Case, Scenario, Value
-from exo.simulate import Plan, plan, simulate
 from exo.verdict import Result, beside_the_paper, judge
 
 

@@ -40,6 +40,9 @@ LARGEST, LARGEST_INTEGER = float(np.finfo(np.float64).max), int(np.iinfo(np.int3
 #: Letters of another program's message.
 QUOTED = 400
 STATUS = ("OK", "Warning", "Discard", "Error", "Fatal", "Pending")
+DISCARD = STATUS.index("Discard")
+#: Of fmi2StatusKind.
+LAST_SUCCESSFUL_TIME, TERMINATED = 2, 3
 
 
 def find_fmu_dir(given: Path | None = None) -> Path:
@@ -61,13 +64,15 @@ class Archive:
     FmuError names what is wrong: no file, no archive that is safe to extract, no description of a co-simulation FMU.
     """
 
-    def __init__(self, path: Path) -> None:
+    def __init__(self, path: Path, *, strict: bool = True) -> None:
+        """`strict`: a description that breaks FMI's rules is an error; else `problems` has what fmpy says of it."""
         if not path.is_file():
             raise FmuError(f"{path}: no such FMU: run `cargo xtask fmu` first")
         self.path = path
         with ExitStack() as stack:
             self._files = tuple(opened(path, stack).files)
-        self.description: Any = _description(path)
+        self.description: Any
+        self.description, self.problems = _description(path, strict=strict)
         self.variables: dict[str, Any] = {v.name: v for v in self.description.modelVariables}
         self._extraction = Extraction(path)
         self._references: dict[tuple[tuple[str, ...], Kind], References] = {}
@@ -167,18 +172,30 @@ def choices(variable: Any) -> dict[str, int]:
     return {name: int(number) for number, name in (item.split() for item in listed[1].split(", "))} if listed else {}
 
 
-def _description(path: Path) -> Any:
-    """What fmpy reads of a co-simulation FMU, version 2.0, whose variables have the variability of their type."""
+def unit_of(variable: Any) -> str:
+    """The unit of a variable or of its type; empty where neither has one."""
+    return str(variable.unit or getattr(variable.declaredType, "unit", None) or "")
+
+
+def _description(path: Path, *, strict: bool) -> tuple[Any, str]:
+    """What fmpy reads of a co-simulation FMU, version 2.0, and what is wrong of it; empty, if nothing is."""
+    problems = ""
     try:
         description = fmpy.read_model_description(str(path))
     except Exception as error:  # fmpy raises what its parser and its validation raise, and plain exceptions
-        raise FmuError(f"{path}: modelDescription.xml: {_said(error)}") from error
+        problems = _said(error)
+        try:
+            if strict:
+                raise
+            description = fmpy.read_model_description(str(path), validate=False)
+        except Exception:
+            raise FmuError(f"{path}: modelDescription.xml: {problems}") from error
     if description.fmiVersion != "2.0" or description.coSimulation is None:
         kind = "without co-simulation" if description.coSimulation is None else ""
         raise FmuError(
             f"{path}: expected an FMI 2.0 co-simulation FMU, got FMI {description.fmiVersion} {kind}".rstrip()
         )
-    return description
+    return description, problems
 
 
 def _said(error: Exception) -> str:
@@ -290,8 +307,22 @@ class Instance:
 
     def fail(self, function: str, status: int) -> FmuError:
         """The error for a call that returned another status than OK."""
+        if function == "fmi2DoStep" and status == DISCARD and (end := self._ended_at()) is not None:
+            return FmuError(f"{self.name}: has ended the simulation at t = {end:.6g} s; expected a shorter duration")
         named = f"fmi2{STATUS[status]}" if 0 <= status < len(STATUS) else f"{status}, which is no status"
         return FmuError(f"{self.name}: {function} returned {named}: {self.last_message()}")
+
+    def _ended_at(self) -> float | None:
+        """When the FMU ended the simulation (s), where that is why it discarded a step."""
+        ended, last = c_int(0), c_double(0.0)
+        asked = (("fmi2GetBooleanStatus", TERMINATED, ended), ("fmi2GetRealStatus", LAST_SUCCESSFUL_TIME, last))
+        for name, kind, answer in asked:
+            try:
+                if self.function(name)(c_void_p(self.component), c_int(kind), byref(answer)):
+                    return None
+            except FmuError:
+                return None
+        return last.value if ended.value else None
 
     def _call(self, name: str, *arguments: Any) -> None:
         status = int(self.function(name)(c_void_p(self.component), *arguments))

@@ -44,6 +44,20 @@ def prepare(out: Path, scenarios: list[str]) -> None:
             raise ExoError(f"{target}: holds no results of exo; expected another --out, so that nothing is overwritten")
 
 
+def signal_files(folder: Path) -> dict[str, Path]:
+    """The files of signals in a scenario's folder of results, by case. ExoError, if there are none."""
+    found = {one.stem: one for one in sorted((folder / "signals").glob("*.parquet"))}
+    if found:
+        return found
+    if not folder.is_dir():
+        raise ExoError(f"{folder}: no such folder; expected a scenario's results, as results/wall")
+    if (folder / METRICS).is_file():
+        raise ExoError(f"{folder}: has no signals; expected a run that keeps them: `exo run {folder.name}`")
+    there = [one.parent.parent.name for one in sorted(folder.glob("*/signals/*.parquet"))]
+    known = f" ({', '.join(list(dict.fromkeys(there))[:6])})" if there else ""
+    raise ExoError(f"{folder}: has no signals; expected the folder of one scenario's results{known}")
+
+
 @contextmanager
 def replaced(target: Path) -> Iterator[Path]:
     """A new folder that takes the place of `target` where the block ends without an error."""
@@ -141,6 +155,27 @@ def write_file(path: Path, data: bytes) -> None:
     except BaseException:
         Path(name).unlink(missing_ok=True)
         raise
+
+
+@contextmanager
+def replaced_file(path: Path) -> Iterator[Path]:
+    """A name beside `path`, of the same ending, for a file that takes its place where the block ends without an error.
+
+    ExoError, if the folder cannot be written.
+    """
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        fresh = Path(tempfile.mkdtemp(prefix=f".{path.name}.", suffix=".new", dir=path.parent))
+    except OSError as error:
+        raise ExoError(f"{path}: cannot be written: {error.strerror or error}; expected a folder") from error
+    try:
+        yield fresh / path.name
+        try:
+            (fresh / path.name).replace(path)
+        except OSError as error:
+            raise ExoError(f"{path}: cannot be replaced: {error.strerror or error}; expected a file") from error
+    finally:
+        shutil.rmtree(fresh, ignore_errors=True)
 
 
 @contextmanager

@@ -9,9 +9,9 @@ from fnmatch import fnmatchcase
 
 from exo.errors import FmuError, ScenarioError, close_matches
 from exo.fmu import Archive
+from exo.master import Plan
 from exo.naming import elements
 from exo.scenario import Scenario, Value
-from exo.simulate import Plan
 
 
 def parse(scenario: Scenario, archives: Mapping[str, Archive], texts: Mapping[str, str]) -> dict[str, Value]:

@@ -18,6 +18,8 @@ class Plan:
     coupling: Coupling
     duration: float
     step: float
+    #: Variables that are recorded besides outputs and wired inputs, by `component.name`.
+    recorded: tuple[str, ...] = ()
 
     @property
     def steps(self) -> int:

@@ -108,7 +108,7 @@ def _panel(axes: Any, panel: Panel, found: Sequence[Look], recordings: Mapping[s
         run = recordings[curve.case]
         left, right = panel.x_range or (0.0, run.time[-1])
         shown = window(run.time, after=left, before=right)
-        time, values = _thinned(run.time[shown], np.asarray(run[curve.column][shown], dtype=np.float64))
+        time, values = thinned(run.time[shown], np.asarray(run[curve.column][shown], dtype=np.float64))
         lines += axes.plot(time, values, label=curve.label, **look.style)
         axes.set_xlim(left, right)
     axes.set_ylabel(panel.y_label)
@@ -172,7 +172,7 @@ def _bands(axes: Any, bands: Bands, run: Recording, *, labelled: bool) -> None:
     legend.set_clip_on(False)
 
 
-def _thinned(time: Any, values: Any) -> tuple[Any, Any]:
+def thinned(time: Any, values: Any) -> tuple[Any, Any]:
     """The smallest and the largest value of each bin in the order in which they come: a thinned line shows the same
     peaks and never runs back, which would fill the gaps of its dash."""
     if len(time) <= PLOTTED_POINTS:

@@ -12,10 +12,10 @@ from typing import Any
 from exo import derived, metrics
 from exo.errors import FmuError, ScenarioError, close_matches
 from exo.fmu import Archive
+from exo.master import Plan
 from exo.paper import lookup
 from exo.profile import SAME_INSTANT
 from exo.scenario import DERIVED, MINUS, PROFILE, Metric, Scenario
-from exo.simulate import Plan
 
 #: By how much a ratio of two times may miss a whole number.
 WHOLE = 1e-9
@@ -46,12 +46,9 @@ def check(
     *, scenario: Scenario, plans: Mapping[str, Plan], archives: Mapping[str, Archive], shortened: bool = False
 ) -> None:
     """All else that can be refused. `shortened`: a window without a tick is the command line's doing, and no error."""
-    for case, plan in plans.items():
-        owner = f"{scenario.id}: case {case}"
-        of = {name: archives[archive] for name, archive in plan.components.items()}
-        _parameters(plan, of, owner)
-        _wires(plan, of, owner)
-    _memory(scenario, plans, archives)
+    for name, plan in plans.items():
+        one_run(plan=plan, archives=archives, owner=f"{scenario.id}: case {name}")
+    memory(owner=scenario.id, plans=plans, archives=archives)
     computed = derived.columns(scenario.derived, owner=scenario.id)
     for metric in scenario.metrics:
         for case in metric.cases or tuple(plans):
@@ -72,6 +69,13 @@ def check(
         for case, name in drawn:
             of = {component: archives[archive] for component, archive in plans[case].components.items()}
             _recorded(name, plans[case], of, computed, f"{scenario.id}: figure {figure.id}: case {case}")
+
+
+def one_run(*, plan: Plan, archives: Mapping[str, Archive], owner: str) -> None:
+    """Refuses parameters and wires of one run that its FMUs cannot take."""
+    of = {name: archives[archive] for name, archive in plan.components.items()}
+    _parameters(plan, of, owner)
+    _wires(plan, of, owner)
 
 
 def empty_window(metric: Metric, plan: Plan) -> str:
@@ -161,8 +165,8 @@ def _kind(variable: Any) -> str:
     return "Integer" if variable.type == "Enumeration" else str(variable.type)
 
 
-def _memory(scenario: Scenario, plans: Mapping[str, Plan], archives: Mapping[str, Archive]) -> None:
-    """All recordings of a scenario are in memory at once."""
+def memory(*, owner: str, plans: Mapping[str, Plan], archives: Mapping[str, Archive]) -> None:
+    """Refuses runs whose recordings, which are in memory at once, are more than there is."""
     if not hasattr(os, "sysconf"):
         return
     there = os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
@@ -174,7 +178,7 @@ def _memory(scenario: Scenario, plans: Mapping[str, Plan], archives: Mapping[str
     )
     if wanted > there:
         raise ScenarioError(
-            f"{scenario.id}: the recordings of {len(plans)} cases take {wanted / 1e9:.3g} GB; expected at most the "
+            f"{owner}: the recordings of {len(plans)} cases take {wanted / 1e9:.3g} GB; expected at most the "
             f"{there / 1e9:.3g} GB of this machine: fewer cases, a shorter duration or a longer step"
         )
 

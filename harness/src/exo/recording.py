@@ -1,5 +1,6 @@
 """What a run leaves: columns over tick time, with units, and how they are stored."""
 
+import json
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -16,6 +17,8 @@ from exo.pace import Deadlines
 from exo.scenario import Segment
 
 TIME = "time"
+#: Metadata of a table: parameters and choices as JSON; and what `pandas.read_parquet` makes the table's `attrs` of.
+ABOUT, PANDAS = b"exo.run", b"PANDAS_ATTRS"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -70,14 +73,37 @@ class Recording:
         return len(self.time) * self.step / self.wall_time
 
     def table(self, names: tuple[str, ...] = ()) -> pa.Table:
-        """The named columns, or all, behind the time; the unit of each is in the field's metadata."""
-        columns = {TIME: self.time, **({name: self[name] for name in names} or self.columns)}
-        units = {TIME: "s", **self.units}
-        fields = [
-            pa.field(name, pa.from_numpy_dtype(column.dtype), metadata={"unit": units.get(name, "")})
-            for name, column in columns.items()
-        ]
-        return pa.table([pa.array(column) for column in columns.values()], schema=pa.schema(fields))
+        """The named columns, or all, behind the time, as `table` writes them."""
+        return table(
+            time=self.time,
+            columns={name: self[name] for name in names} or self.columns,
+            units=self.units,
+            parameters=self.parameters,
+            choices=self.choices,
+        )
+
+
+def table(
+    *,
+    time: NDArray[np.float64],
+    columns: Mapping[str, NDArray[Any]],
+    units: Mapping[str, str],
+    parameters: Mapping[str, float | int | bool],
+    choices: Mapping[str, str],
+) -> pa.Table:
+    """Columns behind the time; the unit of each is in its field's metadata, and in those that pandas makes `attrs` of.
+
+    What the parameters were stands in the table's own metadata.
+    """
+    every = {TIME: time, **columns}
+    known = {name: "s" if name == TIME else units.get(name, "") for name in every}
+    fields = [
+        pa.field(name, pa.from_numpy_dtype(column.dtype), metadata={"unit": known[name]})
+        for name, column in every.items()
+    ]
+    about = {"parameters": dict(parameters), "choices": dict(choices)}
+    metadata = {ABOUT: json.dumps(about, ensure_ascii=False), PANDAS: json.dumps({"units": known}, ensure_ascii=False)}
+    return pa.table([pa.array(column) for column in every.values()], schema=pa.schema(fields, metadata=metadata))
 
 
 def write(table: pa.Table, path: Path, *, csv: bool = False) -> None:

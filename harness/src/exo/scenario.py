@@ -2,7 +2,7 @@
 
 import json
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from importlib.resources.abc import Traversable
 from pathlib import Path
 from typing import Annotated, Any, Literal, Self
@@ -21,6 +21,7 @@ from pydantic import (
 from exo import expansion
 from exo.errors import ScenarioError, close_matches
 from exo.naming import expand_names, expand_values, expand_wires, file_name, line, text
+from exo.plain import plain_values
 
 Coupling = Literal["zero_delay", "one_sample_delay", "exchange_at_once"]
 Value = bool | int | float | str
@@ -335,8 +336,18 @@ def _known(owner: str, kind: str, names: Iterable[str], known: Iterable[str]) ->
 
 def parse(*, text: str, origin: str, folder: Traversable | None = None) -> Scenario:
     """A scenario from TOML text; `origin` is the file's name for messages, `folder` where a path to a base starts."""
+    return _from_data(expansion.read(text, origin=origin), origin=origin, folder=folder)
+
+
+def from_tables(tables: Mapping[str, Any], *, origin: str = "scenario") -> Scenario:
+    """A scenario from the tables of such a file as Python's dictionaries and lists. Tuples are lists, what NumPy holds
+    are numbers; a path to a base starts in the present folder."""
+    return _from_data(plain_values(tables, where=origin), origin=origin, folder=None)
+
+
+def _from_data(data: dict[str, Any], *, origin: str, folder: Traversable | None) -> Scenario:
     try:
-        data = expansion.joined(expansion.read(text, origin=origin), origin=origin, folder=folder or Path())
+        data = expansion.joined(data, origin=origin, folder=folder or Path())
         data = expansion.expanded(data, origin=origin)
         # By way of JSON, where strict validation takes arrays for tuples.
         return Scenario.model_validate_json(json.dumps(data, default=str))

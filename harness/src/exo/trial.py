@@ -33,6 +33,8 @@ def check(archive: Archive) -> None:
 
 def _ended(answer: child.Answer, *, folder: str) -> str:
     """How and where it ended before its time; empty when it did not."""
+    if refused := answer.facts("refused"):
+        return f"cannot be loaded: {printable(str(refused[0]).replace(f'{folder}/', ''))}"
     whole = bool(answer.facts("instantiated")) and answer.last_call in LAST_CALLS
     if not answer.ended and whole:
         return ""

@@ -15,7 +15,7 @@ import fmpy
 import numpy as np
 from fmu_manipulation_toolbox.container import FMUContainer
 
-from exo.simulate import Plan
+from exo.master import Plan
 
 from foreign.runs import Outputs
 from foreign.twin import Twin, expanded, place

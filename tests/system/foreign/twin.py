@@ -17,9 +17,9 @@ from fmpy.fmi3 import FMU3ScheduledExecution, FMU3Slave
 from numpy.typing import NDArray
 
 from exo.extraction import Extraction
+from exo.master import TRUE_FROM, Plan
 from exo.profile import evaluate
 from exo.scenario import PROFILE
-from exo.simulate import TRUE_FROM, Plan
 
 from foreign.record import Record
 from foreign.runs import Clock, Outputs

@@ -14,10 +14,10 @@ from exo import scenario as scenarios
 from exo.errors import ScenarioError, close_matches
 from exo.fmu import Archive, Instance
 from exo.loop import Part as Component
+from exo.master import Plan, plan, simulate
 from exo.recording import Recording
 from exo.references.recipes import Run
 from exo.scenario import PROFILE, Value
-from exo.simulate import Plan, plan, simulate
 from exo.systems import closed
 
 #: Digits of a stimulus: an encoder has fewer. A digit more is a tenth more of the archive.

@@ -6,9 +6,9 @@ from dataclasses import dataclass, field
 from exo import presets
 from exo import scenario as scenarios
 from exo.fmu import Archive
+from exo.master import plan
 from exo.references.record import Experiment
 from exo.scenario import Value
-from exo.simulate import plan
 from exo.systems import ssp
 from exo.systems.system import System, by_element
 

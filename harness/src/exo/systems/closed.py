@@ -12,8 +12,8 @@ from dataclasses import replace
 from math import pi
 
 from exo.errors import ScenarioError
+from exo.master import TRUE_FROM, Plan
 from exo.scenario import PROFILE, Segment, Value
-from exo.simulate import TRUE_FROM, Plan
 from exo.systems import system
 from exo.systems.system import ENGAGE, System
 

@@ -24,9 +24,9 @@ from dataclasses import dataclass, field, replace
 from exo import presets
 from exo import scenario as scenarios
 from exo.errors import ScenarioError, close_matches
+from exo.master import Plan, plan
 from exo.naming import elements
 from exo.scenario import PROFILE, Value
-from exo.simulate import Plan, plan
 
 #: Input of each system that lets its controller begin.
 ENGAGE = "engage"

@@ -8,8 +8,8 @@ from pathlib import Path
 
 import numpy as np
 
+from exo import master, trial
 from exo import overrides as settings
-from exo import simulate, trial
 from exo.errors import ScenarioError, close_matches
 from exo.fmu import Archive
 from exo.handle import handle_of
@@ -51,8 +51,8 @@ def read(*, scenario: Scenario, case: str | None, axis: str, texts: Mapping[str,
         for archive in archives.values():
             trial.check(archive)
         parsed = settings.parse(scenario, archives, texts)
-        plan = simulate.plan(scenario=scenario, case=chosen, overrides=parsed)
-        run = simulate.simulate(plan=replace(plan, duration=2.0 * plan.step), archives=archives)
+        plan = master.plan(scenario=scenario, case=chosen, overrides=parsed)
+        run = master.simulate(plan=replace(plan, duration=2.0 * plan.step), archives=archives)
     parts = {archive: name for name, archive in plan.components.items()}
     for controller, plant in PAIRS:
         if controller in parts and plant in parts:

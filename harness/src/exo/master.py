@@ -1,4 +1,4 @@
-"""One case from plan to recording. What is wired and initialized: `exo.coupled`; what makes the steps: `exo.loop`."""
+"""One case from plan to recording: the master. What is wired and initialized: `exo.coupled`; what steps: `exo.loop`."""
 
 from collections.abc import Mapping
 from dataclasses import replace
