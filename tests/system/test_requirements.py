@@ -17,7 +17,7 @@ from exo.requirements.document import Requirements, Signal
 from exo.requirements.judged import results
 from exo.selection import narrowed
 
-from commands import exo
+from commands import SHORT, exo
 
 STEP = 0.01
 
@@ -191,3 +191,45 @@ def test_margins_stand_beside_the_metrics_of_a_run(tmp_path: Path):
 
 def test_the_words_of_the_language_are_no_signals():
     assert formula.names("always((rise(a >= 1) and abs(b) <= 2e-3) implies eventually[0:0.5s](c >= d))") == set("abcd")
+
+
+def test_a_file_of_ones_own_is_judged_beside_and_the_command_shows_the_margins(tmp_path: Path):
+    (tmp_path / "short.toml").write_text(SHORT, encoding="utf-8")
+    own = tmp_path / "mine.toml"
+    text = """
+[requirements.reach]
+text = "The mass gets far."
+source = "here"
+[requirements.reach.shown.end]
+title = "position"
+scenario = "short"
+formula = "eventually(q >= 100)"
+unit = "m"
+signals.q = "plant.q"
+"""
+    own.write_text(text, encoding="utf-8")
+    out = tmp_path / "results"
+    assert exo("requirements", own, "--results", out).exit_code == 0
+    assert "not run" in exo("requirements", own, "--results", out).output
+    done = exo("run", tmp_path / "short.toml", "--requirements", own, "--out", out)
+    assert done.exit_code == 1, done.output
+    assert f"{PREFIX}reach.end/push" in done.output
+    shown = exo("requirements", own, "--results", out)
+    assert shown.exit_code == 1
+    assert "fail" in shown.output
+    (row,) = json.loads(exo("requirements", own, "--results", out, "--json").output)
+    assert (row["id"], row["verdict"], row["case"]) == ("reach.end", "fail", "push")
+    assert row["margin"] < 0.0
+    own.write_text(text.replace("reach", "drift").replace("end]", "drifting]"), encoding="utf-8")
+    assert exo("run", tmp_path / "short.toml", "--requirements", own, "--out", out).exit_code == 1
+    refused = exo("run", "wall", "--requirements", tmp_path / "none.toml", "--out", out)
+    assert (refused.exit_code, "cannot be read" in refused.output) == (2, True)
+
+
+def test_two_files_that_judge_the_same_are_refused():
+    data = one()
+    scenario = scenarios.load("wall").model_copy(update={"id": "mine"})
+    with pytest.raises(ScenarioError, match="twice"):
+        experiment._required(
+            (data, data), scenario=scenario, recordings={"a": recorded(plant__x=np.zeros(5))}, changed={"a": ()}
+        )

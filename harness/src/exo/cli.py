@@ -5,7 +5,19 @@ from typing import Annotated
 import typer
 
 from exo import __version__, screen
-from exo.commands import compare, export, identify_tool, measure, references, scenarios, ssp, sweep, tune, validate
+from exo.commands import (
+    compare,
+    export,
+    identify_tool,
+    measure,
+    references,
+    requirements,
+    scenarios,
+    ssp,
+    sweep,
+    tune,
+    validate,
+)
 
 app = typer.Typer(no_args_is_help=True, add_completion=False, pretty_exceptions_enable=False, help=__doc__)
 
@@ -34,6 +46,7 @@ app.command("run")(scenarios.run)
 app.command("reproduce")(scenarios.reproduce)
 app.command("sweep")(sweep.run_sweep)
 app.command("compare")(compare.compare)
+app.command("requirements")(requirements.list_requirements)
 app.command("export")(export.export_run)
 app.command("ssp")(ssp.write_ssp)
 app.command("validate")(validate.validate_fmus)

@@ -2,7 +2,7 @@
 
 import hashlib
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import ExitStack
 from dataclasses import dataclass
 from importlib import metadata
@@ -17,6 +17,7 @@ from exo.loop import Engine
 from exo.master import Plan, plan, simulate
 from exo.paper import lookup
 from exo.recording import Recording
+from exo.requirements import Requirements
 from exo.scenario import Case, Scenario, Value
 from exo.verdict import Result, beside_the_paper, judge
 
@@ -84,9 +85,12 @@ def run(
     given: Mapping[str, float] | None = None,
     engine: Engine = "fmpy",
     real_time: bool = False,
+    required: Sequence[Requirements] | None = None,
     on_case: Callable[[Case], None] = lambda _case: None,
 ) -> Experiment:
-    """Runs all cases. `overrides` are texts from the command line; `on_case` is told before each case.
+    """Runs all cases and judges metrics and requirements (the project's, when `required` is None).
+
+    `overrides` are texts from the command line; `on_case` is told before each case.
 
     `engine` makes the steps (`exo.loop`), `real_time` by the clock; ExoError when the engine is not installed.
 
@@ -123,7 +127,8 @@ def run(
         overrides=parsed | dict(given or {}),
         plans=plans,
         recordings=recordings,
-        results=evaluate(scenario=scenario, recordings=recordings, plans=plans, changed=changed),
+        results=evaluate(scenario=scenario, recordings=recordings, plans=plans, changed=changed)
+        + _required(required, scenario=scenario, recordings=recordings, changed=changed),
         fmus=fmus,
         engine=engine,
         unwired=tuple(unwired),
@@ -148,6 +153,23 @@ def _facts(archive: Archive) -> dict[str, str]:
         "sha256": hashlib.sha256(archive.path.read_bytes()).hexdigest(),
         **texts,
     }
+
+
+def _required(
+    required: Sequence[Requirements] | None,
+    *,
+    scenario: Scenario,
+    recordings: Mapping[str, Recording],
+    changed: Mapping[str, tuple[str, ...]],
+) -> tuple[Result, ...]:
+    every = (requirements.built_in(),) if required is None else required
+    found: dict[str, Result] = {}
+    for one in every:
+        for result in requirements.results(one, scenario=scenario.id, recordings=recordings, changed=changed):
+            if result.id in found:
+                raise ScenarioError(f"{result.id} is twice in the requirements; expected another id in your file")
+            found[result.id] = result
+    return tuple(found.values())
 
 
 def evaluate(
@@ -202,9 +224,5 @@ def evaluate(
             paper=lookup(ratio.paper) if ratio.paper else None,
             void_by=names if undefined else settings.void(ratio.rests_on, names),
         )
-    required = requirements.results(
-        requirements.built_in(), scenario=scenario.id, recordings=recordings, changed=changed
-    )
-    results |= {result.id: result for result in required}
     beside = [beside_the_paper(result) for result in results.values() if result.paper and result.paper.is_fair]
     return (*results.values(), *beside)

@@ -8,6 +8,7 @@ from typing import Annotated
 import typer
 
 from exo import experiment, folder, junit, kept, loop, presets, report, results, scenario, screen, selection
+from exo import requirements as required
 from exo.commands.options import AsJson, Csv, EngineOption, FmuDir, Out, Signals, parse_settings, progress_bar
 from exo.errors import ScenarioError
 from exo.expansion import schema as file_schema
@@ -15,6 +16,7 @@ from exo.experiment import Experiment
 from exo.fmu import find_fmu_dir
 from exo.kept import ALL, NONE
 from exo.presets import Preset
+from exo.requirements import Requirements
 from exo.scenario import Scenario
 from exo.screen import console, sentences
 
@@ -58,6 +60,9 @@ def run(
     real_time: Annotated[
         bool, typer.Option("--real-time", help="By the clock; says how late steps began and which ones overran.")
     ] = False,
+    requirements: Annotated[
+        Path | None, typer.Option(metavar="FILE", help="Also judges the requirements of this file.")
+    ] = None,
     everything: Annotated[bool, typer.Option("--all", help="Prints the numbers that pass, too.")] = False,
     signals: Signals = ALL,
     csv: Csv = False,
@@ -84,6 +89,7 @@ def run(
             csv=csv,
             engine=loop.named(engine),
             real_time=real_time,
+            own=(required.load(requirements),) if requirements is not None else (),
             out=out,
             fmu_dir=fmu_dir,
             tell=lambda done, folder: screen.print_run(
@@ -143,6 +149,7 @@ def _run_all(
     csv: bool,
     engine: loop.Engine,
     real_time: bool = False,
+    own: tuple[Requirements, ...] = (),
     out: Path,
     fmu_dir: Path | None,
     tell: Callable[[Experiment, Path], None],
@@ -164,6 +171,7 @@ def _run_all(
                 given=given,
                 engine=engine,
                 real_time=real_time,
+                required=(required.built_in(), *own),
                 on_case=lambda _case, task=task: progress.advance(task),  # type: ignore[misc]
             )
             place = results.write(experiment=done, out=out, kept=written)

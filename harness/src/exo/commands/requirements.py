@@ -1,0 +1,91 @@
+"""`exo requirements`."""
+
+import json
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from exo import folder, screen
+from exo import requirements as required
+from exo.commands.options import AsJson
+from exo.errors import ExoError
+from exo.requirements import PREFIX, Requirements
+from exo.screen import sentences
+
+
+def list_requirements(
+    file: Annotated[
+        Path | None, typer.Argument(help="A file of requirements; without it those of the project.")
+    ] = None,
+    *,
+    results: Annotated[Path, typer.Option(help="Folder of results, whose smallest margins are shown.")] = Path(
+        "results"
+    ),
+    as_json: AsJson = False,
+) -> None:
+    """Lists requirements with their formulas, and the smallest margin in the results; exit code 1 when one is broken."""
+    with sentences():
+        data = required.built_in() if file is None else required.load(file)
+        rows = list(_rows(data, results))
+        if as_json:
+            typer.echo(json.dumps(rows, indent=2, ensure_ascii=False))
+        else:
+            _print(data, rows)
+    raise typer.Exit(1 if any(row["verdict"] == "fail" for row in rows) else 0)
+
+
+def _print(data: Requirements, rows: list[dict[str, Any]]) -> None:
+    for name, one in data.requirements.items():
+        screen.console.print(f"[bold]{name}[/] ", end="")
+        screen.console.print(f"{one.text} ({one.source})", markup=False)
+        table = screen.table("", "scenario", "formula", "smallest margin", "unit", "in")
+        for row in rows:
+            if row["id"].partition(".")[0] == name:
+                margin = "–" if row["verdict"] is None else screen.number(row["margin"])
+                cells = (
+                    f"  {row['verdict'] or 'not run'}",
+                    row["scenario"],
+                    row["formula"],
+                    margin,
+                    row["unit"],
+                    row["case"],
+                )
+                screen.add(table, *cells)
+        screen.print_table(table)
+
+
+def _rows(data: Requirements, results: Path) -> Any:
+    for name, requirement in data.requirements.items():
+        for key, shown in requirement.shown.items():
+            found = _of(results / shown.scenario / folder.METRICS, f"{PREFIX}{name}.{key}/")
+            worst = min(found, key=lambda one: _badness(found[one])) if found else None
+            yield {
+                "id": f"{name}.{key}",
+                "text": requirement.text,
+                "source": requirement.source,
+                "scenario": shown.scenario,
+                "formula": shown.formula,
+                "at": shown.at,
+                "verdict": found[worst]["verdict"] if worst else None,
+                "margin": found[worst]["value"] if worst else None,
+                "unit": shown.unit,
+                "case": worst.partition("/")[2] if worst else "",
+            }
+
+
+def _of(path: Path, prefix: str) -> dict[str, Any]:
+    """Results of a requirement in a scenario's metrics.json; nothing, where it has not run."""
+    if not path.is_file():
+        return {}
+    try:
+        metrics = json.loads(path.read_text(encoding="utf-8"))["metrics"]
+        return {key: value for key, value in metrics.items() if key.startswith(prefix)}
+    except (OSError, ValueError, KeyError, AttributeError) as error:
+        raise ExoError(f"{path}: cannot be read: {error}; expected what exo run writes") from error
+
+
+def _badness(result: dict[str, Any]) -> tuple[bool, float]:
+    """Broken ones first; a margin that is undefined is smaller than all."""
+    value = result["value"]
+    return result["verdict"] != "fail", float("-inf") if value is None else float(value)
