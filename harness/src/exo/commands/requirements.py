@@ -19,12 +19,12 @@ def list_requirements(
         Path | None, typer.Argument(help="A file of requirements; without it those of the project.")
     ] = None,
     *,
-    results: Annotated[Path, typer.Option(help="Folder of results, whose smallest margins are shown.")] = Path(
+    results: Annotated[Path, typer.Option(help="Folder of results whose margins are shown.")] = Path(
         "results"
     ),
     as_json: AsJson = False,
 ) -> None:
-    """Lists requirements with their formulas, and the smallest margin in the results; exit code 1 when one is broken."""
+    """Lists requirements, formulas and the smallest margins in the results; exit code 1 when one is broken."""
     with sentences():
         data = required.built_in() if file is None else required.load(file)
         rows = list(_rows(data, results))
