@@ -112,13 +112,7 @@ impl Pair {
                 None => (Status::OK, Status::OK),
                 Some((bytes, time)) => {
                     self.time = *time;
-                    let mut state = self
-                        .two
-                        .deserialize(bytes)
-                        .map_err(|status| format!("{status:?}"))?;
-                    let two = self.two.set_state(state);
-                    assert_eq!(self.two.free_state(&mut state), Status::OK);
-                    (two, self.three.restore(bytes))
+                    (self.two.restore(bytes), self.three.restore(bytes))
                 }
             },
         };
