@@ -164,6 +164,7 @@ impl<M: Model> Instance<M> {
     /// Initializes the model if something was set since; a refusal keeps the model as it was.
     pub(crate) fn initialize(&mut self) -> Outcome {
         if self.stale {
+            self.keeps_the_interval(&self.now.model)?;
             let mut candidate = self.now.model.clone();
             let start_time = self.now.clock.start_time();
             candidate
@@ -247,8 +248,24 @@ impl<M: Model> Instance<M> {
         })
     }
 
+    /// Refuses a sample period that is not the clock's: the scheduler would call the ticks of another law.
+    fn keeps_the_interval(&self, model: &M) -> Outcome {
+        let interval = M::DESCRIPTION.experiment.step;
+        match (self.interface, model.sample_period()) {
+            (Interface::ScheduledExecution, Some((name, period))) if period != interval => {
+                refused(format!(
+                    "{name} = {period:?} s, expected {interval:?} s: the clock's interval is constant in the description"
+                ))
+            }
+            _ => Ok(()),
+        }
+    }
+
     /// fmi2SetFMUstate, fmi3SetFMUState
     pub(crate) fn restore(&mut self, snapshot: &Snapshot<M>) -> Outcome {
+        if snapshot.phase != Phase::Instantiated {
+            self.keeps_the_interval(&snapshot.model)?;
+        }
         self.now = snapshot.clone();
         self.now.model.located(self.resources.as_deref());
         self.stale = self.now.phase == Phase::InitializationMode;

@@ -134,8 +134,9 @@ mod tests {
                     clock.advance(&step);
                 }
                 let last = clock.step(end - h, h).expect("a step");
-                let past =
-                    |share: f64| StopTime::new(Some(end - share * h)).objection(&last, CO_SIMULATION);
+                let past = |share: f64| {
+                    StopTime::new(Some(end - share * h)).objection(&last, CO_SIMULATION)
+                };
                 assert_eq!(past(4e-4), None, "{start} s, {h} s");
                 assert!(past(1e-3).is_some(), "{start} s, {h} s");
                 assert!(past(0.5).is_some(), "{start} s, {h} s");

@@ -1,7 +1,7 @@
-//! FMI 3.0: where an experiment ends.
+//! FMI 3.0: where an experiment ends, and the period of the clock.
 
 use abi::Status;
-use abi::fmi3::{Fmu, Instance, Interface};
+use abi::fmi3::{Fmu, Instance, Interface, Value};
 use abi::refusal::refused;
 
 /// Initializes for an experiment that ends.
@@ -58,5 +58,38 @@ fn an_activation_past_the_stop_time_is_refused_and_one_at_it_is_not() {
             &["activationTime = ", &stop],
             |i| i.activate(4.0 * period),
         );
+    }
+}
+
+#[test]
+fn another_sample_period_than_the_clock_s_is_refused_by_name_in_scheduled_execution_alone() {
+    for fmu in Fmu::sampled() {
+        let period = fmu.fmi2.step_size;
+        let row = fmu.row("T");
+        let other = [Value::Number(2.0 * period)];
+        let instance = fmu.instantiate_as(Interface::ScheduledExecution);
+        assert_eq!(instance.write(row, &other), Status::OK);
+        assert_eq!(instance.enter_initialization_mode(0.0, None), Status::OK);
+        let words = [
+            &format!("T = {:?} s", 2.0 * period) as &str,
+            &format!("expected {period:?} s"),
+            "the clock's interval is constant",
+        ];
+        refused(&instance, "fmi3ExitInitializationMode", &words, |i| {
+            i.exit_initialization_mode()
+        });
+        // The start value, set by the importer, is the clock's.
+        assert_eq!(instance.write(row, &[Value::Number(period)]), Status::OK);
+        assert_eq!(instance.exit_initialization_mode(), Status::OK);
+        assert_eq!(instance.activate(0.0), Status::OK);
+
+        // In co-simulation it is the sample period, and such a state is none of a scheduled instance.
+        let steps = fmu.instantiate();
+        assert_eq!(steps.write(row, &other), Status::OK);
+        steps.initialize(0.0);
+        assert_eq!(steps.step(0.0, 2.0 * period), Status::OK);
+        let bytes = steps.bytes();
+        refused(&instance, "fmi3SetFMUState", &words, |i| i.restore(&bytes));
+        assert_eq!(instance.activate(period), Status::OK);
     }
 }
