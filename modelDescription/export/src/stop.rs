@@ -106,7 +106,7 @@ mod tests {
 
     #[test]
     fn the_last_of_a_hundred_million_summed_steps_is_made_though_its_time_is_past_the_stop_time() {
-        // The plain sum of 1e8 steps of 0.7 s is four hundredths of a step late, which the sum of the sizes is not.
+        // The plain sum of 1e8 steps of 0.7 s is a fifth of a step late, which the sum of the sizes is not.
         let past = run(0.0, 0.7, 100_000_000, |_, t| t + 0.7);
         assert!(past > 10.0 * SAME_END, "{past} steps");
     }
