@@ -36,7 +36,10 @@ fn a_step_past_the_stop_time_is_refused_with_time_step_and_stop_time_and_a_round
         });
         assert_eq!(instance.reset(), Status::OK);
         instance.initialize(0.0);
-        assert_eq!(instance.step(0.0, 0.5), Status::OK);
+        for k in 0..5 {
+            let status = instance.step(f64::from(k) * 0.1, 0.1);
+            assert_eq!(status, Status::OK, "{:?}", instance.messages());
+        }
     }
 }
 
