@@ -28,7 +28,8 @@ struct Pair {
 /// One call.
 #[derive(Clone, Debug)]
 enum Call {
-    Enter(f64),
+    /// Start and stop time.
+    Enter(f64, Option<f64>),
     Leave,
     Step(f64, f64),
     Terminate,
@@ -69,13 +70,13 @@ impl Pair {
         slots: &mut [Option<(Vec<u8>, f64)>; SLOTS],
     ) -> Result<(Status, Status), String> {
         let statuses = match call {
-            Call::Enter(start) => {
-                let set_up = self.two.setup_experiment(*start, None);
+            Call::Enter(start, stop) => {
+                let set_up = self.two.setup_experiment(*start, *stop);
                 let two = match set_up {
                     Status::OK => self.two.enter_initialization_mode(),
                     refused => refused,
                 };
-                (two, self.three.enter_initialization_mode(*start, None))
+                (two, self.three.enter_initialization_mode(*start, *stop))
             }
             Call::Leave => (
                 self.two.exit_initialization_mode(),
@@ -118,7 +119,7 @@ impl Pair {
         };
         match (call, statuses.0) {
             (Call::Step(t, h), Status::OK) => self.time = t + h,
-            (Call::Enter(start), Status::OK) => self.time = *start,
+            (Call::Enter(start, _), Status::OK) => self.time = *start,
             (Call::Reset, Status::OK) => self.time = 0.0,
             _ => {}
         }
@@ -232,7 +233,12 @@ pub fn play(fmu: &Fmu, calls: u64, seed: u64) -> Result<Played, String> {
         let input = inputs[dice.below(inputs.len())].clone();
         let h = fmu.fmi2.step_size * [1.0, 1.0, 1.0, 2.0, 0.5, -1.0][dice.below(6)];
         let call = match dice.below(100) {
-            0..8 => Call::Enter([0.0, 0.0, 5.0, f64::NAN][dice.below(4)]),
+            0..8 => {
+                let start = [0.0, 0.0, 5.0, f64::NAN][dice.below(4)];
+                let steps = [-1.0, 3.0, 5.0, 1e6][dice.below(4)];
+                let stop = start + steps * fmu.fmi2.step_size;
+                Call::Enter(start, (dice.below(2) == 0).then_some(stop))
+            }
             8..16 => Call::Leave,
             16..50 => Call::Step(pair.time + if dice.below(30) == 0 { 1.0 } else { 0.0 }, h),
             50 => Call::Terminate,
