@@ -5,7 +5,7 @@ use crate::html::Section;
 use crate::standard::Standard;
 
 /// From FMI 2.0.5, section 4.2.4.
-const FMI2: [&str; 7] = [
+const FMI2: [&str; 6] = [
     "Variables can be read right after instantiation: they show the start values.",
     "Inputs can be set before Initialization Mode.",
     "<code>fmi2EnterInitializationMode</code> is accepted without <code>fmi2SetupExperiment</code>: the start time is then 0, \
@@ -18,18 +18,16 @@ const FMI2: [&str; 7] = [
      <code>fmi2Error</code>.",
     "<code>fmi2GetRealStatus(fmi2LastSuccessfulTime)</code> and <code>fmi2GetBooleanStatus(fmi2Terminated)</code> are answered at any \
      time after initialization.",
-    "A step may go past the stop time: importers end a run by a rounding past it.",
 ];
 
 /// From FMI 3.0, sections 2.3, 4.2 and 5.2.
-const FMI3: [&str; 4] = [
+const FMI3: [&str; 3] = [
     "A refused call (wrong argument, order, value or state bytes) returns <code>fmi3Error</code>, changes nothing and does not end \
      the run. Only a failed step or a caught panic does: then <code>fmi3Reset</code>, <code>fmi3SetFMUState</code> or \
      <code>fmi3FreeInstance</code> must follow.",
     "<code>fmi3Warning</code>, <code>fmi3Discard</code> and <code>fmi3Fatal</code> are never returned. What is unsupported returns \
      <code>fmi3Error</code> and says so.",
     "Variables can be read after they were set, without a step or an activation between: they show what was set.",
-    "A step may go past the stop time: importers end a run by a rounding past it.",
 ];
 
 /// The section.

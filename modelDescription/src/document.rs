@@ -160,8 +160,15 @@ fn stepping(interface: &Interface, standard: Standard) -> Section {
              at t + h. Any h &gt; 0 is accepted."
         }
     };
+    let declared = match (standard, interface.stepping) {
+        (Standard::Fmi3, Stepping::Sampled) => {
+            " <code>fixedInternalStepSize</code> in the description is the sample period of the start values: a parameter that sets \
+             another one changes the ticks, not the description."
+        }
+        _ => "",
+    };
     let body = format!(
-        "<p>{how}</p>\n<p>No output depends on an input at the same communication point. {QUANTITIES}</p>\n"
+        "<p>{how}{declared}</p>\n<p>No output depends on an input at the same communication point. {QUANTITIES}</p>\n"
     );
     Section::new("stepping", "How it steps", body)
 }
@@ -175,7 +182,8 @@ fn scheduled(interface: &Interface) -> Section {
         "<p>The model has one partition, that of the periodic clock <code>{CLOCK}</code> (value reference {CLOCK_REFERENCE}, period {} s, \
          first at the start time). <code>fmi3ActivateModelPartition</code> runs one tick: set the inputs before it, read the outputs \
          after it. The outputs are those that the co-simulation FMU shows at the end of the step that begins at the activation \
-         time, bit for bit.</p>\n<p>Outputs depend on inputs at the same activation. {QUANTITIES}</p>\n",
+         time, bit for bit. The period is constant: a parameter that is the sample period keeps its start value, and another one is \
+         refused when initialization ends, by its name.</p>\n<p>Outputs depend on inputs at the same activation. {QUANTITIES}</p>\n",
         double(interface.experiment.step)
     );
     Section::new("stepping", "How it steps", body)

@@ -122,7 +122,9 @@ fn clock(interface: &Interface) -> Variable {
     Variable::Clock(Attributes {
         name: CLOCK.into(),
         value_reference: CLOCK_REFERENCE,
-        description: "runs a tick: reads the inputs, writes the outputs".into(),
+        description: "runs a tick: reads the inputs, writes the outputs. The interval is constant, so a parameter that is the \
+                      sample period keeps its start value"
+            .into(),
         causality: "input".into(),
         variability: "discrete".into(),
         priority: Some(0),

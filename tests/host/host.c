@@ -4,7 +4,8 @@
  *
  * The table (written by `cargo xtask dist`) says what the variables are. The host instantiates, steps with inputs that
  * are exact on any machine, saves and restores the state, provokes errors, and prints every status, message and number,
- * the Reals as their bits. Two platforms agree when the texts are equal. Exit code: 0 when the run went through,
+ * the Reals as their bits. By FMI 3.0 it goes on from the state that FMI 2.0 saved, in co-simulation and, where there is a
+ * clock, by activations: the states at the end are those of FMI 2.0, byte by byte. Two platforms agree when the texts are equal. Exit code: 0 when the run went through,
  * whatever it printed; 1 when the library or the table cannot be used; 2 when a promise that needs no second platform
  * is broken, which `broken:` lines name.
  */
@@ -12,6 +13,7 @@
 #include <inttypes.h>
 #include <math.h>
 #include <stdarg.h>
+#include <stdbool.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -63,6 +65,29 @@ static struct {
     Status (*DeSerializeFMUstate)(Component, const char *, size_t, void **);
 } fmi2;
 
+/* fmi3PlatformTypes.h and fmi3FunctionTypes.h, as far as used here. */
+typedef void Log3(void *, Status, const char *, const char *);
+static struct {
+    Component (*InstantiateCoSimulation)(const char *, const char *, const char *, bool, bool, bool, bool, const Reference *,
+                                         size_t, void *, Log3 *, void (*)(void));
+    Component (*InstantiateScheduledExecution)(const char *, const char *, const char *, bool, bool, void *, Log3 *,
+                                               void (*)(void), void (*)(void), void (*)(void));
+    void (*FreeInstance)(Component);
+    Status (*EnterInitializationMode)(Component, bool, double, double, bool, double);
+    Status (*ExitInitializationMode)(Component);
+    Status (*SetFloat64)(Component, const Reference *, size_t, const double *, size_t);
+    Status (*SetBoolean)(Component, const Reference *, size_t, const bool *, size_t);
+    Status (*DoStep)(Component, double, double, bool, bool *, bool *, bool *, double *);
+    Status (*ActivateModelPartition)(Component, Reference, double);
+    Status (*GetFMUState)(Component, void **);
+    Status (*SetFMUState)(Component, void *);
+    Status (*FreeFMUState)(Component, void **);
+    Status (*SerializedFMUStateSize)(Component, void *, size_t *);
+    Status (*SerializeFMUState)(Component, void *, uint8_t *, size_t);
+    Status (*DeserializeFMUState)(Component, const uint8_t *, size_t, void **);
+} fmi3;
+static const Reference CLOCK = 0xfffffffe;
+
 static void stop(const char *what, const char *which)
 {
     fprintf(stderr, "host: %s: %s\n", what, which);
@@ -80,17 +105,22 @@ static void load(const char *path)
     if (!library) stop("cannot be loaded", dlerror());
 #define SYMBOL(name) dlsym(library, name)
 #endif
-#define FIND(name)                                                                                                     \
+#define OF(version, name)                                                                                              \
     do {                                                                                                               \
-        void *symbol = SYMBOL("fmi2" #name);                                                                           \
-        if (!symbol) stop("has no function", "fmi2" #name);                                                            \
-        memcpy(&fmi2.name, &symbol, sizeof symbol);                                                                    \
+        void *symbol = SYMBOL(#version #name);                                                                         \
+        if (!symbol) stop("has no function", #version #name);                                                          \
+        memcpy(&version.name, &symbol, sizeof symbol);                                                                 \
     } while (0)
+#define FIND(name) OF(fmi2, name)
     FIND(GetVersion); FIND(GetTypesPlatform); FIND(Instantiate); FIND(FreeInstance); FIND(SetupExperiment);
     FIND(EnterInitializationMode); FIND(ExitInitializationMode); FIND(Terminate); FIND(Reset);
     FIND(GetReal); FIND(GetInteger); FIND(GetBoolean); FIND(SetReal); FIND(SetBoolean); FIND(DoStep);
     FIND(GetFMUstate); FIND(SetFMUstate); FIND(FreeFMUstate); FIND(SerializedFMUstateSize); FIND(SerializeFMUstate);
     FIND(DeSerializeFMUstate);
+    OF(fmi3, InstantiateCoSimulation); OF(fmi3, InstantiateScheduledExecution); OF(fmi3, FreeInstance);
+    OF(fmi3, EnterInitializationMode); OF(fmi3, ExitInitializationMode); OF(fmi3, SetFloat64); OF(fmi3, SetBoolean);
+    OF(fmi3, DoStep); OF(fmi3, ActivateModelPartition); OF(fmi3, GetFMUState); OF(fmi3, SetFMUState);
+    OF(fmi3, FreeFMUState); OF(fmi3, SerializedFMUStateSize); OF(fmi3, SerializeFMUState); OF(fmi3, DeserializeFMUState);
 }
 
 /* ---- the table: one variable a line ---- */
@@ -210,14 +240,18 @@ static void dump(long n)
     printf("\n");
 }
 
+static void real_inputs(long n, double *values)
+{
+    for (size_t i = 0; i < count[REAL_INPUT]; i++) values[i] = start[i] + amplitude[i] * triangle(n + 7 * (long)i);
+}
+
 /* Steps number `from` to `to` - 1. Every input moves; Boolean inputs are true from 10 to 160. */
 static void run(long from, long to)
 {
     for (long n = from; n < to; n++) {
         double reals[MOST];
         int booleans[MOST];
-        for (size_t i = 0; i < count[REAL_INPUT]; i++)
-            reals[i] = start[i] + amplitude[i] * triangle(n + 7 * (long)i);
+        real_inputs(n, reals);
         for (size_t i = 0; i < count[BOOLEAN_INPUT]; i++) booleans[i] = n >= 10 && n < 160;
         expect(fmi2.SetReal(c, references[REAL_INPUT], count[REAL_INPUT], reals) == fmi2OK, "Real inputs can be set");
         expect(fmi2.SetBoolean(c, references[BOOLEAN_INPUT], count[BOOLEAN_INPUT], booleans) == fmi2OK,
@@ -235,6 +269,94 @@ static void initialize(void)
            "parameters can be set");
     say("fmi2EnterInitializationMode", fmi2.EnterInitializationMode(c));
     say("fmi2ExitInitializationMode", fmi2.ExitInitializationMode(c));
+}
+
+/* ---- by FMI 3.0 ---- */
+
+static void log3(void *environment, Status status, const char *category, const char *text)
+{
+    (void)environment;
+    printf("log3 %d %s: %s\n", status, category, text);
+}
+
+/* The variables of FMI 3.0: an array is one, and what FMI 2.0 has as its elements follow each other. */
+static size_t variables(int kind, Reference *first)
+{
+    size_t n = 0;
+    for (size_t i = 0; i < count[kind]; i++)
+        if (!n || first[n - 1] != references[kind][i] / 256 * 256) first[n++] = references[kind][i] / 256 * 256;
+    return n;
+}
+
+/* Steps, or activations, number `from` to `to` - 1, with the inputs of `run`. */
+static void run3(Component one, bool scheduled, long from, long to)
+{
+    static Reference of_reals[MOST], of_booleans[MOST];
+    size_t reals = variables(REAL_INPUT, of_reals), booleans = variables(BOOLEAN_INPUT, of_booleans);
+    for (long n = from; n < to; n++) {
+        double values[MOST], last = 0.0;
+        bool truths[MOST], event = true, terminate = true, early = true;
+        real_inputs(n, values);
+        for (size_t i = 0; i < count[BOOLEAN_INPUT]; i++) truths[i] = n >= 10 && n < 160;
+        expect(fmi3.SetFloat64(one, of_reals, reals, values, count[REAL_INPUT]) == fmi2OK, "Float64 inputs can be set");
+        expect(fmi3.SetBoolean(one, of_booleans, booleans, truths, count[BOOLEAN_INPUT]) == fmi2OK,
+               "Boolean inputs can be set by FMI 3.0");
+        double t = (double)n * T;
+        if (scheduled) {
+            expect(fmi3.ActivateModelPartition(one, CLOCK, t) == fmi2OK, "the activation succeeds");
+        } else {
+            expect(fmi3.DoStep(one, t, T, true, &event, &terminate, &early, &last) == fmi2OK, "the step by FMI 3.0 succeeds");
+            expect(!event && !terminate && !early && last == t + T, "the step by FMI 3.0 is whole");
+        }
+    }
+}
+
+/* Goes on from one state and must come to the other; then each damaged byte of the header is refused. */
+static void goes_on(Component one, bool scheduled, uint8_t *from, size_t size, const uint8_t *to, size_t expected)
+{
+    void *state = NULL, *none = NULL;
+    size_t length = 0;
+    expect(fmi3.DeserializeFMUState(one, from, size, &state) == fmi2OK, "FMI 3.0 reads the state of FMI 2.0");
+    expect(fmi3.SetFMUState(one, state) == fmi2OK, "FMI 3.0 goes on from the state of FMI 2.0");
+    run3(one, scheduled, 100, 140);
+    expect(fmi3.GetFMUState(one, &state) == fmi2OK, "FMI 3.0 saves its state");
+    expect(fmi3.SerializedFMUStateSize(one, state, &length) == fmi2OK && length == expected,
+           "the state has the size of FMI 2.0");
+    uint8_t *bytes = malloc(length);
+    expect(fmi3.SerializeFMUState(one, state, bytes, length) == fmi2OK, "FMI 3.0 writes its state");
+    expect(length == expected && !memcmp(bytes, to, length),
+           scheduled ? "activations lead to the state of FMI 2.0" : "steps lead to the state of FMI 2.0");
+    for (size_t i = 0; i < 66; i++) {
+        from[i] ^= 0x81;
+        expect(fmi3.DeserializeFMUState(one, from, size, &none) == fmi2Error && !none, "a damaged state is an error by FMI 3.0");
+        from[i] ^= 0x81;
+    }
+    expect(fmi3.FreeFMUState(one, &state) == fmi2OK && !state, "FMI 3.0 frees its state");
+    free(bytes);
+}
+
+static void by_fmi3(uint8_t *from, size_t size, const uint8_t *to, size_t expected)
+{
+    Component one = fmi3.InstantiateCoSimulation(name, guid, NULL, false, true, false, true, NULL, 0, NULL, log3, NULL);
+    if (!one) stop("cannot be instantiated by FMI 3.0", name);
+    goes_on(one, false, from, size, to, expected);
+    fmi3.FreeInstance(one);
+
+    one = fmi3.InstantiateCoSimulation(name, guid, NULL, false, true, false, true, NULL, 0, NULL, log3, NULL);
+    if (!one) stop("cannot be instantiated by FMI 3.0", name);
+    bool event, terminate, early;
+    double last;
+    say("fmi3EnterInitializationMode", fmi3.EnterInitializationMode(one, false, 0.0, 0.0, true, 2 * T));
+    say("fmi3ExitInitializationMode", fmi3.ExitInitializationMode(one));
+    run3(one, false, 0, 2);
+    expect(say("past the stop time", fmi3.DoStep(one, 2 * T, T, true, &event, &terminate, &early, &last)) == fmi2Error,
+           "a step past the stop time is an error");
+    fmi3.FreeInstance(one);
+
+    one = fmi3.InstantiateScheduledExecution(name, guid, NULL, false, true, NULL, log3, NULL, NULL, NULL);
+    printf("scheduled execution: %s\n", one ? "yes" : "no");
+    if (one) goes_on(one, true, from, size, to, expected);
+    fmi3.FreeInstance(one);
 }
 
 int main(int n, char **argument)
@@ -274,6 +396,20 @@ int main(int n, char **argument)
     digest = UINT64_C(0xcbf29ce484222325);
     run(100, 140);
     expect(digest == first, "steps after a restored state give the same bits");
+
+    /* The state at the end of these steps, and the same steps by FMI 3.0. */
+    void *later = NULL;
+    size_t length = 0;
+    say("fmi2GetFMUstate", fmi2.GetFMUstate(c, &later));
+    say("fmi2SerializedFMUstateSize", fmi2.SerializedFMUstateSize(c, later, &length));
+    char *end = malloc(length);
+    say("fmi2SerializeFMUstate", fmi2.SerializeFMUstate(c, later, end, length));
+    say("fmi2FreeFMUstate", fmi2.FreeFMUstate(c, &later));
+    digest = UINT64_C(0xcbf29ce484222325);
+    for (size_t i = 0; i < length; i++) mix((unsigned char)end[i]);
+    printf("state: %lu bytes, %016" PRIx64 "\n", (unsigned long)length, digest);
+    by_fmi3((uint8_t *)bytes, size, (uint8_t *)end, length);
+    free(end);
 
     /* Refused calls: an error each, and the run goes on. */
     double nan = NAN;

@@ -35,6 +35,19 @@ def test_fmpy_s_command_says_so_too(fmu: Path) -> None:
     assert "No problems found." in answer.stdout
 
 
+@pytest.mark.parametrize("steps", [3.0, 100.5, 7.001])
+def test_fmpy_ends_at_the_stop_time_that_it_defines(fmu: Path, fmu_dir: Path, steps: float) -> None:
+    """Whole steps, of which the third of 0.1 s ends a rounding past the stop time, and a part of one."""
+    step, stop = 0.1, 0.3
+    if steps != 3.0 or fmu.stem.endswith("Controller"):  # 0.1 s would be the sample of a law
+        step = float(fmpy.read_model_description(str(fmu)).defaultExperiment.stepSize)
+        stop = steps * step
+    for path in (fmu, fmu_dir / "fmi3" / fmu.name):
+        result = fmpy.simulate_fmu(str(path), stop_time=stop, output_interval=step)
+        assert result["time"][-1] == pytest.approx(stop, rel=1e-15)
+        assert len(result) == np.ceil(steps) + 1
+
+
 def test_the_description_obeys_the_official_schema(fmu: Path) -> None:
     xsd = Path(fmpy.__file__).parent / "schema" / "fmi2" / "fmi2ModelDescription.xsd"
     schema = etree.XMLSchema(etree.parse(str(xsd)))

@@ -5,10 +5,13 @@ clone and the program that `cargo xtask test` has built of it. A configuration o
 stranger may have one: other flags, another target, panics that abort, a target folder elsewhere.
 """
 
+import csv
 import math
 import re
+import shutil
 import subprocess
 import zipfile
+from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -17,7 +20,12 @@ import pytest
 
 from cargo_fmu import ROOT, cargo_fmu, environment
 
+from foreign.cosim import cosim
+
 TUTORIAL = (ROOT / "docs" / "tutorial.md").read_text(encoding="utf-8")
+
+#: The Modelica Association's simulator, if it is on this machine.
+FMUSIM = shutil.which("fmusim")
 
 #: Kind and text of each block, in order.
 BLOCKS = re.findall(r"^```(\w+)\n(.*?)^```$", TUTORIAL, re.MULTILINE | re.DOTALL)
@@ -45,6 +53,11 @@ class Done:
     def fmu(self) -> Path:
         """The archive."""
         return self.target / "fmu" / "MyPlant.fmu"
+
+    @property
+    def twin(self) -> Path:
+        """The same for FMI 3.0."""
+        return self.target / "fmu" / "fmi3" / "MyPlant.fmu"
 
 
 @pytest.fixture(scope="module")
@@ -93,17 +106,59 @@ def test_the_tutorial_runs_and_its_own_test_agrees_with_the_closed_form(done: Do
     assert "No problems found" in done.printed[-1]
 
 
-def test_a_step_of_the_force_moves_the_mass_as_the_closed_form_says(done: Done) -> None:
-    m, d, k, force = 1.5, 0.9, 30.0, 2.0
-    run = fmpy.simulate_fmu(
-        str(done.fmu), stop_time=4.0, output_interval=0.01, start_values={"m": m, "d": d, "k": k, "force": force}
-    )
+#: A mass (kg) at a damper (N·s/m) and a spring (N/m), and the force (N) on it.
+VALUES = {"m": 1.5, "d": 0.9, "k": 30.0, "force": 2.0}
+#: The communication step (s) and how many.
+STEP, STEPS = 0.01, 400
+
+
+def assert_closed_form(times: Iterable[float], places: Iterable[float]) -> None:
+    """A step of the force from rest: x (m) at each time (s)."""
+    m, d, k, force = VALUES.values()
     decay = d / (2 * m)
     omega = math.sqrt(k / m - decay**2)
-    for t, x in zip(run["time"], run["x"], strict=True):
+    number = 0
+    for t, x in zip(times, places, strict=True):
         wave = math.cos(omega * t) + decay / omega * math.sin(omega * t)
         # The method's error in substeps of 1 ms is far below.
-        assert x == pytest.approx(force / k * (1 - math.exp(-decay * t) * wave), abs=1e-10)
+        assert x == pytest.approx(force / k * (1 - math.exp(-decay * t) * wave), abs=1e-10), t
+        number += 1
+    assert number >= STEPS
+
+
+def test_a_step_of_the_force_moves_the_mass_as_the_closed_form_says(done: Done) -> None:
+    for fmu in (done.fmu, done.twin):
+        run = fmpy.simulate_fmu(str(fmu), stop_time=STEPS * STEP, output_interval=STEP, start_values=VALUES)
+        assert_closed_form(run["time"], run["x"])
+
+
+def test_libcosim_moves_it_as_the_closed_form_says(done: Done) -> None:
+    start = {f"plant.{name}": value for name, value in VALUES.items()}
+    found = cosim(
+        {
+            "step_ns": round(STEP * 1e9),
+            "steps": STEPS,
+            "instances": {"plant": str(done.fmu)},
+            "start": start,
+            "connections": {},
+            "inputs": {"plant.force": [VALUES["force"]] * STEPS},
+            "outputs": ["plant.x"],
+        }
+    )
+    assert_closed_form([STEP * (k + 1) for k in range(STEPS)], found["plant.x"])
+
+
+@pytest.mark.skipif(FMUSIM is None, reason="fmusim (github.com/modelica/fmusim) is not on PATH")
+def test_fmusim_moves_it_as_the_closed_form_says(done: Done, tmp_path: Path) -> None:
+    for fmu in (done.fmu, done.twin):
+        table = tmp_path / "out.csv"
+        starts = [part for name, value in VALUES.items() for part in ("--start-value", f"{name}={value}")]
+        times = ["--stop-time", str(STEPS * STEP), "--set-stop-time", "--output-interval", str(STEP)]
+        command = [str(FMUSIM), "simulate", *times, *starts, "--output-variable", "x", "--output-file", str(table)]
+        run = subprocess.run([*command, str(fmu)], capture_output=True, encoding="utf-8", check=False)
+        assert run.returncode == 0, run.stdout + run.stderr
+        rows = list(csv.DictReader(table.read_text(encoding="utf-8").splitlines()))
+        assert_closed_form([float(row["time"]) for row in rows], [float(row["x"]) for row in rows])
 
 
 def test_the_fmu_says_whose_it_is_and_nothing_of_this_project(done: Done) -> None:

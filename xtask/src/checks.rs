@@ -148,7 +148,7 @@ fn validate() -> Outcome {
         archives.extend(here.filter(|path| root().join(path).exists()));
     }
     run(Venv::ready(Packages::Test)?
-        .exo(["validate", "--strict"])
+        .exo(["validate", "--strict", "--load"])
         .args(archives))
 }
 

@@ -41,6 +41,10 @@ impl Model for TestbedController {
         step.at_most("T", self.parameters.T)
     }
 
+    fn sample_period(&self) -> Option<(&'static str, f64)> {
+        Some(("T", self.parameters.T))
+    }
+
     fn fits(&self, clock: &Clock) -> Result<(), Refusal> {
         self.sampler.map_or(Ok(()), |sampler| sampler.check(clock))
     }

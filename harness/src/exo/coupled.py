@@ -288,7 +288,7 @@ def _initialize(plan: Plan, parts: dict[str, Part], wires: list[Wire]) -> None:
     for name, part in parts.items():
         own = {key.split(".", 1)[1]: value for key, value in plan.parameters.items() if key.split(".", 1)[0] == name}
         part.instance.set_starts(own)
-        part.instance.setup_experiment(start_time=0.0, stop_time=plan.duration)
+        part.instance.setup_experiment(start_time=0.0, stop_time=plan.steps * plan.step)
         part.instance.enter_initialization_mode()
     # Outputs after initialization depend on parameters and, through one more FMU at most, on each other.
     for _ in parts:

@@ -7,6 +7,7 @@ use crate::log::{self, Category, Enabled, Log, Sink};
 use crate::model::Model;
 use crate::outputs::Outputs;
 use crate::snapshot::Snapshot;
+use crate::stop::StopTime;
 use std::ffi::{CStr, CString};
 use std::path::PathBuf;
 
@@ -17,6 +18,7 @@ pub struct Instance<M: Model> {
     enabled: Enabled,
     resources: Option<PathBuf>,
     interface: Interface,
+    stop_time: StopTime,
     /// What an FMU state holds.
     pub(crate) now: Snapshot<M>,
     /// In Initialization Mode: something was set since the model was last initialized.
@@ -46,6 +48,7 @@ impl<M: Model> Instance<M> {
             enabled,
             resources,
             interface,
+            stop_time: StopTime::default(),
             now,
             stale: false,
             outputs: Outputs::new(),
@@ -135,6 +138,7 @@ impl<M: Model> Instance<M> {
             ));
         }
         self.now.clock = Clock::at_start(start_time);
+        self.stop_time = StopTime::new(stop);
         Ok(())
     }
 
@@ -160,6 +164,7 @@ impl<M: Model> Instance<M> {
     /// Initializes the model if something was set since; a refusal keeps the model as it was.
     pub(crate) fn initialize(&mut self) -> Outcome {
         if self.stale {
+            self.keeps_the_interval(&self.now.model)?;
             let mut candidate = self.now.model.clone();
             let start_time = self.now.clock.start_time();
             candidate
@@ -191,6 +196,7 @@ impl<M: Model> Instance<M> {
             model: M::default(),
         };
         self.now.model.located(self.resources.as_deref());
+        self.stop_time = StopTime::default();
         self.stale = false;
         Ok(())
     }
@@ -201,6 +207,9 @@ impl<M: Model> Instance<M> {
             Ok(step) => step,
             Err(why) => return Err(self.not_next(why, t, h)),
         };
+        if let Some(past) = self.stop_time.objection(&step, self.interface) {
+            return refused(past);
+        }
         self.now.model.accepts(&step).map_err(|refusal| refusal.0)?;
         let (model, mut log) = self.model_and_log();
         model
@@ -239,8 +248,24 @@ impl<M: Model> Instance<M> {
         })
     }
 
+    /// Refuses a sample period that is not the clock's: the scheduler would call the ticks of another law.
+    fn keeps_the_interval(&self, model: &M) -> Outcome {
+        let interval = M::DESCRIPTION.experiment.step;
+        match (self.interface, model.sample_period()) {
+            (Interface::ScheduledExecution, Some((name, period))) if period != interval => {
+                refused(format!(
+                    "{name} = {period:?} s, expected {interval:?} s: the clock's interval is constant in the description"
+                ))
+            }
+            _ => Ok(()),
+        }
+    }
+
     /// fmi2SetFMUstate, fmi3SetFMUState
     pub(crate) fn restore(&mut self, snapshot: &Snapshot<M>) -> Outcome {
+        if snapshot.phase != Phase::Instantiated {
+            self.keeps_the_interval(&snapshot.model)?;
+        }
         self.now = snapshot.clone();
         self.now.model.located(self.resources.as_deref());
         self.stale = self.now.phase == Phase::InitializationMode;

@@ -38,6 +38,7 @@
 //! | [`provenance`] | version and git hash, which every model has | |
 //! | `interface` | what `cargo fmu` reads, in a build for it alone | |
 //! | [`snapshot`] | FMU state as bytes with a checked format | 2.1.8 |
+//! | `stop` | the stop time, and which step leads past it | 2.1.6 |
 //! | [`resource`] | `fmuResourceLocation` as a path | 2.1.5 |
 //! | `kind` | the types of the two interfaces | |
 //! | [`functions`] | the C functions, generic over the model | 2.1, 4.2 |
@@ -64,6 +65,7 @@ pub mod provenance;
 pub mod resource;
 pub mod sampler;
 pub mod snapshot;
+mod stop;
 mod symbols;
 pub mod time;
 

@@ -59,6 +59,12 @@ pub trait Model: Declare + Clone + Serialize + DeserializeOwned {
         Ok(())
     }
 
+    /// The parameter that is the sample period, and its value (s): of a sampled model that has one. In scheduled execution the
+    /// description's clock has its start value as constant interval, so any other value is refused there, by this name.
+    fn sample_period(&self) -> Option<(&'static str, f64)> {
+        None
+    }
+
     /// Advances over `step`. Must not allocate.
     ///
     /// # Errors

@@ -1,5 +1,6 @@
 //! One instance of an FMU, with slices for arrays; freed when dropped.
 
+use crate::both::{call, calls_of_both};
 use crate::library::Library;
 use crate::messages::{Message, Messages, logger, owned};
 use crate::types::*;
@@ -62,28 +63,14 @@ pub struct Instance {
     _callbacks: Box<Callbacks>,
 }
 
-// SAFETY: the standard asks that calls on one instance do not overlap; an `Instance` is not `Sync` (it holds a raw
-// pointer), so moving it to another thread moves all its calls.
-unsafe impl Send for Instance {}
-
-impl Drop for Instance {
-    fn drop(&mut self) {
-        // SAFETY: the component came from fmi2Instantiate and is freed here only.
-        unsafe { (self.library.fmi2FreeInstance)(self.component) }
-    }
-}
-
 fn c(text: &str) -> CString {
     CString::new(text).expect("no null byte in a test's string")
 }
 
-/// SAFETY of the calls below: the component is live, belongs to `library`, and is used by one thread (see `Send`); array
-/// arguments are slices of the length that is passed, or pointers that the caller of the method answers for.
-macro_rules! call {
-    ($self:ident.$function:ident($($argument:expr),*)) => {{
-        // SAFETY: see above.
-        unsafe { ($self.library.$function)($self.component, $($argument),*) }
-    }};
+calls_of_both! {
+    free fmi2FreeInstance; debug fmi2SetDebugLogging; leave fmi2ExitInitializationMode; end fmi2Terminate; reset fmi2Reset;
+    state fmi2GetFMUstate fmi2SetFMUstate fmi2FreeFMUstate;
+    bytes fmi2SerializedFMUstateSize fmi2SerializeFMUstate fmi2DeSerializeFMUstate;
 }
 
 macro_rules! get_and_set {
@@ -111,10 +98,6 @@ macro_rules! get_and_set {
     };
 }
 
-#[allow(
-    clippy::not_unsafe_ptr_arg_deref,
-    reason = "a state is passed on as it is; the libraries under test follow only those they handed out"
-)]
 impl Instance {
     /// fmi2Instantiate.
     ///
@@ -154,38 +137,6 @@ impl Instance {
         })
     }
 
-    /// The library, for calls with arguments that no safe method offers.
-    pub fn library(&self) -> &Library {
-        &self.library
-    }
-
-    /// The component, for calls with arguments that no safe method offers.
-    pub fn component(&self) -> Component {
-        self.component
-    }
-
-    /// Everything logged since the last call of this.
-    pub fn messages(&self) -> Vec<Message> {
-        self.messages.take()
-    }
-
-    /// The text of the one message logged since the last call.
-    ///
-    /// # Panics
-    /// When there was none or several.
-    pub fn message(&self) -> String {
-        let mut all = self.messages();
-        assert_eq!(all.len(), 1, "expected one message, got {all:?}");
-        all.remove(0).text
-    }
-
-    /// fmi2SetDebugLogging
-    pub fn set_debug_logging(&self, on: bool, categories: &[&str]) -> Status {
-        let owned: Vec<_> = categories.iter().map(|t| c(t)).collect();
-        let pointers: Vec<_> = owned.iter().map(|t| t.as_ptr()).collect();
-        call!(self.fmi2SetDebugLogging(on.into(), pointers.len(), pointers.as_ptr()))
-    }
-
     /// fmi2SetupExperiment without tolerance; `None` as stop time is undefined.
     pub fn setup_experiment(&self, start: f64, stop: Option<f64>) -> Status {
         call!(self.fmi2SetupExperiment(
@@ -200,11 +151,6 @@ impl Instance {
     /// fmi2EnterInitializationMode
     pub fn enter_initialization_mode(&self) -> Status {
         call!(self.fmi2EnterInitializationMode())
-    }
-
-    /// fmi2ExitInitializationMode
-    pub fn exit_initialization_mode(&self) -> Status {
-        call!(self.fmi2ExitInitializationMode())
     }
 
     /// From *instantiated* through Initialization Mode.
@@ -224,16 +170,6 @@ impl Instance {
     /// fmi2DoStep
     pub fn step(&self, t: f64, h: f64) -> Status {
         call!(self.fmi2DoStep(t, h, 1))
-    }
-
-    /// fmi2Terminate
-    pub fn terminate(&self) -> Status {
-        call!(self.fmi2Terminate())
-    }
-
-    /// fmi2Reset
-    pub fn reset(&self) -> Status {
-        call!(self.fmi2Reset())
     }
 
     get_and_set!(f64: get_real fmi2GetReal real, set_real fmi2SetReal);
@@ -256,68 +192,6 @@ impl Instance {
         let value = c(value);
         let pointer = value.as_ptr();
         call!(self.fmi2SetString(&raw const reference, 1, &raw const pointer))
-    }
-
-    /// fmi2GetFMUstate into a new state.
-    ///
-    /// # Panics
-    /// When it is refused.
-    pub fn state(&self) -> FmuState {
-        let mut state = std::ptr::null_mut();
-        let status = call!(self.fmi2GetFMUstate(&raw mut state));
-        assert_eq!(status, Status::OK, "{:?}", self.messages());
-        state
-    }
-
-    /// fmi2SetFMUstate
-    pub fn set_state(&self, state: FmuState) -> Status {
-        call!(self.fmi2SetFMUstate(state))
-    }
-
-    /// fmi2FreeFMUstate
-    pub fn free_state(&self, state: &mut FmuState) -> Status {
-        call!(self.fmi2FreeFMUstate(&raw mut *state))
-    }
-
-    /// fmi2SerializedFMUstateSize and fmi2SerializeFMUstate.
-    ///
-    /// # Panics
-    /// When one is refused.
-    pub fn serialize(&self, state: FmuState) -> Vec<u8> {
-        let mut size = 0;
-        let status = call!(self.fmi2SerializedFMUstateSize(state, &raw mut size));
-        assert_eq!(status, Status::OK, "{:?}", self.messages());
-        let mut bytes = vec![0_u8; size];
-        let status = call!(self.fmi2SerializeFMUstate(state, bytes.as_mut_ptr().cast(), size));
-        assert_eq!(status, Status::OK, "{:?}", self.messages());
-        bytes
-    }
-
-    /// fmi2DeSerializeFMUstate into a new state.
-    ///
-    /// # Errors
-    /// The status that is not fmi2OK.
-    pub fn deserialize(&self, bytes: &[u8]) -> Result<FmuState, Status> {
-        let mut state = std::ptr::null_mut();
-        match call!(self.fmi2DeSerializeFMUstate(
-            bytes.as_ptr().cast(),
-            bytes.len(),
-            &raw mut state
-        )) {
-            Status::OK => Ok(state),
-            status => Err(status),
-        }
-    }
-
-    /// The whole state as bytes: what two runs must share bit for bit.
-    ///
-    /// # Panics
-    /// When a call is refused.
-    pub fn bytes(&self) -> Vec<u8> {
-        let mut state = self.state();
-        let bytes = self.serialize(state);
-        assert_eq!(self.free_state(&mut state), Status::OK);
-        bytes
     }
 
     /// `file:` URI of an absolute path, with percent escapes for all but letters, digits and `/-_.~`.

@@ -20,6 +20,7 @@
 //! | [`library`] | the 34 functions of a shared library |
 //! | [`messages`] | what an instance told its logger |
 //! | [`instance`] | one instance, with slices for arrays |
+//! | [`both`] | the calls that FMI 3.0 has, too, under names of their own |
 //! | [`description`], [`variable`] | `modelDescription.xml`: guid, names, value references, types |
 //! | [`fmu`], [`lag`] | the archive, or the test model's bare library |
 //! | [`phase`] | the phases of an instance's life, and how to get there |
@@ -33,6 +34,7 @@
 //! `src/bin/native_loop.rs` is the harness's zero-delay loop without the harness; `src/bin/call_sequences.rs` plays random
 //! calls.
 
+pub mod both;
 pub mod calls;
 pub mod description;
 pub mod fmi3;

@@ -1,6 +1,7 @@
-//! What a refused call is: fmi2Error, one message, nothing changed.
+//! What a refused call is, by either version: an error, one message, nothing changed.
 
-use crate::{Instance, Status};
+use crate::Status;
+use crate::both::Hosted;
 
 /// Asserts that a call is refused with a message that begins with the function's name and has all `parts`, and that
 /// the instance is as before, bit for bit.
@@ -8,11 +9,11 @@ use crate::{Instance, Status};
 /// # Panics
 /// When one of these does not hold.
 #[track_caller]
-pub fn refused(
-    instance: &Instance,
+pub fn refused<I: Hosted>(
+    instance: &I,
     function: &str,
     parts: &[&str],
-    call: impl FnOnce(&Instance) -> Status,
+    call: impl FnOnce(&I) -> Status,
 ) {
     let before = instance.bytes();
     instance.messages();

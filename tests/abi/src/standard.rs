@@ -90,12 +90,6 @@ pub const DEVIATIONS: [(&[&str], Phase, &str); 2] = [
     ),
 ];
 
-/// Accepted although the standard's text, not its table, says no: what, and why.
-pub const DEVIATIONS_FROM_THE_TEXT: [(&str, &str); 1] = [(
-    "fmi2DoStep past a defined stop time",
-    "importers end a run by a rounding past it, and no model here knows what lies behind it",
-)];
-
 /// Functions of capabilities that the description does not claim, with that capability. They are refused where they are
 /// legal, too.
 pub const UNSUPPORTED: [(&str, &str); 7] = [

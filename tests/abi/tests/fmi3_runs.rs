@@ -3,6 +3,7 @@
 
 use abi::Status;
 use abi::fmi3::{Fmu, Instance, Interface, Type, Value, mirror};
+use std::sync::Barrier;
 
 /// Sets the k-th inputs: each Float64 moves on a course of its own, what is true or false is true, and what counts is 1.
 fn load(fmu: &Fmu, k: u32, instance: &Instance, also: Option<&abi::Instance>) {
@@ -232,6 +233,52 @@ fn a_restored_state_runs_on_as_the_first_time_and_a_reset_as_a_new_instance() {
         assert_eq!(instance.reset(), Status::OK);
         instance.initialize(0.0);
         assert_eq!(run(0), first, "{}", fmu.name());
+    }
+}
+
+/// Initializes and runs with the inputs of run `run`; the state after each step or activation.
+fn course(fmu: &Fmu, instance: &Instance, interface: Interface, run: u32) -> Vec<Vec<u8>> {
+    let h = fmu.fmi2.step_size;
+    instance.initialize(0.0);
+    (0..STEPS)
+        .map(|k| {
+            load(fmu, k + 1000 * run, instance, None);
+            let t = f64::from(k) * h;
+            let status = match interface {
+                Interface::ScheduledExecution => instance.activate(t),
+                _ => instance.step(t, h),
+            };
+            assert_eq!(status, Status::OK, "{:?}", instance.messages());
+            instance.bytes()
+        })
+        .collect()
+}
+
+#[test]
+fn two_instances_in_two_threads_at_once_equal_each_alone_bit_for_bit() {
+    let co_simulation = Fmu::all()
+        .into_iter()
+        .map(|fmu| (fmu, Interface::CoSimulation));
+    let scheduled = Fmu::sampled()
+        .into_iter()
+        .map(|fmu| (fmu, Interface::ScheduledExecution));
+    for (fmu, interface) in co_simulation.chain(scheduled) {
+        let alone = [0, 1].map(|run| course(&fmu, &fmu.instantiate_as(interface), interface, run));
+        assert!(alone[0] != alone[1], "{}: the two runs differ", fmu.name());
+        let begin = Barrier::new(2);
+        let together = std::thread::scope(|scope| {
+            let threads = [0, 1].map(|run| {
+                // Made here, run there: an importer may hand instances over.
+                let instance = fmu.instantiate_as(interface);
+                let (fmu, begin) = (&fmu, &begin);
+                scope.spawn(move || {
+                    begin.wait();
+                    course(fmu, &instance, interface, run)
+                })
+            });
+            threads.map(|thread| thread.join().expect("no panic"))
+        });
+        assert!(together == alone, "{} {interface:?}", fmu.name());
     }
 }
 

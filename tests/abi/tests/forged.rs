@@ -1,7 +1,9 @@
-//! FMU states that no run leads to, with a right checksum: refused by name, or a step answers, soon and without a panic.
+//! FMU states that no run leads to: refused by name, or, with a right checksum, a step answers, soon and without a panic.
+//! By FMI 2.0 and by FMI 3.0, whose instances of scheduled execution too.
 
+use abi::both::Hosted;
+use abi::fmi3::{self, Interface};
 use abi::refusal::refused;
-use abi::types::FmuState;
 use abi::{Fmu, Instance, Kind, Phase, Status};
 use std::ops::Range;
 use std::ptr::null_mut;
@@ -74,70 +76,126 @@ fn moved(fmu: &Fmu) -> Instance {
     instance
 }
 
-/// fmi2DeSerializeFMUstate into a slot that keeps its state.
-fn deserialize(instance: &Instance, bytes: &[u8], state: &mut FmuState) -> Status {
-    // SAFETY: the bytes and the slot are locals of the caller.
-    unsafe {
-        (instance.library().fmi2DeSerializeFMUstate)(
-            instance.component(),
-            bytes.as_ptr().cast(),
-            bytes.len(),
-            &raw mut *state,
-        )
+/// The same instance by FMI 3.0: a state goes from one version to the other.
+fn moved3(fmu: &fmi3::Fmu, interface: Interface) -> fmi3::Instance {
+    let instance = fmu.instantiate_as(interface);
+    let status = instance.restore(&moved(&fmu.fmi2).bytes());
+    assert_eq!(status, Status::OK, "{:?}", instance.messages());
+    instance.messages();
+    instance
+}
+
+/// All FMUs, by FMI 3.0.
+fn all3() -> Vec<fmi3::Fmu> {
+    Fmu::all().into_iter().map(fmi3::Fmu::new).collect()
+}
+
+/// Asserts that bytes are refused with these words, and that nothing comes into the slot.
+#[track_caller]
+fn not_read<I: Hosted>(instance: &I, bytes: &[u8], words: &[&str]) {
+    refused(instance, I::DESERIALIZE, words, |i| {
+        let mut slot = null_mut();
+        let status = i.deserialize_into(bytes, &mut slot);
+        assert!(slot.is_null(), "{words:?}");
+        status
+    });
+}
+
+/// Times that no steps lead to, on an instance that made some.
+fn times_are_refused<I: Hosted>(instance: &I) {
+    let bytes = instance.bytes();
+    for (at, name) in [
+        (START_TIME, "start_time = "),
+        (TIME, "time = "),
+        (ELAPSED, "elapsed = "),
+    ] {
+        for (number, text) in [(f64::NAN, "NaN s"), (f64::INFINITY, "inf s")] {
+            let words = ["serialized state: ", &format!("{name}{text}"), "expected"];
+            not_read(instance, &with_number(&bytes, at, number), &words);
+        }
+    }
+    for (at, number, text) in [
+        (START_TIME, -1e6, "start_time = -1000000.0 s and time = "),
+        (START_TIME, 1e6, "start_time = 1000000.0 s and time = "),
+        (TIME, 1e6, "and time = 1000000.0 s"),
+        (TIME, -1e6, "and time = -1000000.0 s"),
+        (ELAPSED, -1e6, "elapsed = -1000000.0 s"),
+        (ELAPSED, 0.0, " 0.0 s"),
+        (ELAPSED_LOW, 1e6, "and 1000000.0 s"),
+    ] {
+        not_read(instance, &with_number(&bytes, at, number), &[text]);
     }
 }
 
 #[test]
 fn a_state_with_times_that_no_steps_lead_to_is_refused_by_name() {
     for fmu in Fmu::all() {
-        let instance = moved(&fmu);
-        let bytes = instance.bytes();
-        for (at, name) in [
-            (START_TIME, "start_time = "),
-            (TIME, "time = "),
-            (ELAPSED, "elapsed = "),
-        ] {
-            for (number, text) in [(f64::NAN, "NaN s"), (f64::INFINITY, "inf s")] {
-                let parts = ["serialized state: ", &format!("{name}{text}"), "expected"];
-                refused(&instance, "fmi2DeSerializeFMUstate", &parts, |i| {
-                    deserialize(i, &with_number(&bytes, at, number), &mut null_mut())
-                });
-            }
-        }
-        for (at, number, text) in [
-            (START_TIME, -1e6, "start_time = -1000000.0 s and time = "),
-            (START_TIME, 1e6, "start_time = 1000000.0 s and time = "),
-            (TIME, 1e6, "and time = 1000000.0 s"),
-            (TIME, -1e6, "and time = -1000000.0 s"),
-            (ELAPSED, -1e6, "elapsed = -1000000.0 s"),
-            (ELAPSED, 0.0, " 0.0 s"),
-            (ELAPSED_LOW, 1e6, "and 1000000.0 s"),
-        ] {
-            refused(&instance, "fmi2DeSerializeFMUstate", &[text], |i| {
-                deserialize(i, &with_number(&bytes, at, number), &mut null_mut())
-            });
-        }
+        times_are_refused(&moved(&fmu));
         // Before the first step there are none.
         let new = Phase::InitializationMode.enter(&fmu);
-        refused(
-            &new,
-            "fmi2DeSerializeFMUstate",
-            &["before the first step"],
-            |i| deserialize(i, &with_number(&i.bytes(), ELAPSED, 0.5), &mut null_mut()),
-        );
+        let bytes = with_number(&new.bytes(), ELAPSED, 0.5);
+        not_read(&new, &bytes, &["before the first step"]);
     }
+    for fmu in all3() {
+        times_are_refused(&moved3(&fmu, Interface::CoSimulation));
+    }
+    for fmu in fmi3::Fmu::sampled() {
+        times_are_refused(&moved3(&fmu, Interface::ScheduledExecution));
+    }
+}
+
+/// A state of an earlier build.
+fn an_earlier_version_is_refused<I: Hosted>(instance: &I) {
+    let mut bytes = instance.bytes();
+    bytes[VERSION].copy_from_slice(&1_u32.to_le_bytes());
+    let words = ["serialized state: expected format version 2, got 1"];
+    not_read(instance, &bytes, &words);
 }
 
 #[test]
 fn a_state_of_an_earlier_build_is_refused_by_its_version() {
     for fmu in Fmu::all() {
-        let instance = moved(&fmu);
-        let mut bytes = instance.bytes();
-        bytes[VERSION].copy_from_slice(&1_u32.to_le_bytes());
-        let parts = ["serialized state: expected format version 2, got 1"];
-        refused(&instance, "fmi2DeSerializeFMUstate", &parts, |i| {
-            deserialize(i, &bytes, &mut null_mut())
-        });
+        an_earlier_version_is_refused(&moved(&fmu));
+    }
+    for fmu in all3() {
+        an_earlier_version_is_refused(&moved3(&fmu, Interface::CoSimulation));
+    }
+}
+
+/// Every byte of the header, and of the payload as in [`places`], with some of its bits turned: always refused, whichever
+/// it was.
+fn every_damaged_byte_is_refused<I: Hosted>(instance: &I) {
+    let mut bytes = instance.bytes();
+    let before = bytes.clone();
+    let payload = places(bytes.len() - HEADER).map(|at| at + HEADER);
+    for at in (0..HEADER).chain(payload.collect::<Vec<_>>()) {
+        for turned in [0x01, 0x80, 0xff] {
+            bytes[at] ^= turned;
+            let mut slot = null_mut();
+            let status = instance.deserialize_into(&bytes, &mut slot);
+            bytes[at] ^= turned;
+            assert_eq!(status, Status::ERROR, "byte {at} by {turned:#x}");
+            assert!(slot.is_null(), "byte {at} by {turned:#x}");
+            let log = instance.messages();
+            let [message] = &log[..] else {
+                panic!("byte {at} by {turned:#x}: {log:?}")
+            };
+            let begin = format!("{}: serialized state: ", I::DESERIALIZE);
+            assert!(message.text.starts_with(&begin), "byte {at}: {message:?}");
+        }
+    }
+    for length in [0, 1, HEADER - 1, HEADER, bytes.len() / 2, bytes.len() - 1] {
+        let words = ["serialized state: expected ", "bytes"];
+        not_read(instance, &bytes[..length], &words);
+    }
+    assert_eq!(instance.bytes(), before);
+}
+
+#[test]
+fn a_state_with_one_damaged_byte_anywhere_or_cut_off_is_refused() {
+    for fmu in all3() {
+        every_damaged_byte_is_refused(&moved(&fmu.fmi2));
+        every_damaged_byte_is_refused(&moved3(&fmu, Interface::CoSimulation));
     }
 }
 
@@ -186,12 +244,11 @@ fn a_state_with_a_value_that_set_refuses_is_refused_in_the_same_words() {
             })
             .expect("the value is in the state");
         instance.messages();
-        refused(
-            &instance,
-            "fmi2DeSerializeFMUstate",
-            &["serialized state: ", text],
-            |i| deserialize(i, &with_number(&one, at, number), &mut null_mut()),
-        );
+        let bytes = with_number(&one, at, number);
+        let words = ["serialized state: ", text];
+        not_read(&instance, &bytes, &words);
+        let three = fmi3::Fmu::new(Fmu::open(name)).instantiate();
+        not_read(&three, &bytes, &words);
     }
 }
 
@@ -205,22 +262,23 @@ const COUNTS: [&[u8]; 3] = [
     &[0xff, 0xff, 0xff, 0xff, 0xff, 0xff, 0xff, 0xff, 0xff, 0x01],
 ];
 
-/// Every number and count at every place of the payload; of a long one (what the hand felt) at its two ends and at every
-/// 501st byte.
-fn forgeries(bytes: &[u8]) -> impl Iterator<Item = (usize, Vec<u8>)> {
+/// Every place of a payload; of a long one (what the hand felt) those at its two ends and every 501st.
+fn places(length: usize) -> impl Iterator<Item = usize> {
     const END: usize = 4_000;
-    let length = bytes.len() - HEADER;
-    (0..length)
-        .filter(move |at| *at < END || length - at < END || at % 501 == 0)
-        .flat_map(move |at| {
-            let numbers = NUMBERS
-                .into_iter()
-                .map(move |number| with_number(bytes, at, number));
-            let counts = COUNTS
-                .into_iter()
-                .map(move |count| with(bytes, at, 1, count));
-            numbers.chain(counts).map(move |forged| (at, forged))
-        })
+    (0..length).filter(move |at| *at < END || length - at < END || at % 501 == 0)
+}
+
+/// Every number and count at every place of the payload.
+fn forgeries(bytes: &[u8]) -> impl Iterator<Item = (usize, Vec<u8>)> {
+    places(bytes.len() - HEADER).flat_map(move |at| {
+        let numbers = NUMBERS
+            .into_iter()
+            .map(move |number| with_number(bytes, at, number));
+        let counts = COUNTS
+            .into_iter()
+            .map(move |count| with(bytes, at, 1, count));
+        numbers.chain(counts).map(move |forged| (at, forged))
+    })
 }
 
 /// How many of a library's forged states were refused and how many made steps.
@@ -230,21 +288,33 @@ struct Seen {
     stepped: u32,
 }
 
-/// Tries all forgeries on an FMU; `tell` hears of each before it is tried.
-fn try_all(name: &str, tell: impl Fn(usize)) -> Seen {
-    let fmu = Fmu::named(name);
-    let instance = moved(&fmu);
+/// Tries all forgeries on an instance after 30 steps of `h` (s); `tell` hears of each before it is tried.
+fn try_all<I: Hosted>(
+    name: &str,
+    instance: &I,
+    h: f64,
+    step: impl Fn(&I, f64, f64) -> Status,
+    tell: impl Fn(usize),
+) -> Seen {
     let bytes = instance.bytes();
-    let (end, h) = (30.0 * fmu.step_size, fmu.step_size);
+    let end = 30.0 * h;
     let mut seen = Seen::default();
     let mut state = instance.state();
     for (at, forgery) in forgeries(&bytes) {
         tell(at);
-        let answer = deserialize(&instance, &forgery, &mut state);
-        if answer == Status::OK {
-            assert_eq!(instance.set_state(state), Status::OK);
+        let answer = instance.deserialize_into(&forgery, &mut state);
+        if answer == Status::OK && instance.set_state(state) != Status::OK {
+            // A scheduled instance has the period of its clock.
+            let log = instance.messages();
+            let of_clock = |m: &abi::Message| m.text.contains("the clock's interval is constant");
+            assert!(
+                log.iter().all(of_clock) && log.len() == 1,
+                "{name}: {log:?}"
+            );
+            seen.refused += 1;
+        } else if answer == Status::OK {
             let steps = [(end, h), (end + h, h), (end + 2.0 * h, 10.0 * h)];
-            let status = steps.map(|(t, h)| instance.step(t, h));
+            let status = steps.map(|(t, h)| step(instance, t, h));
             seen.stepped += u32::from(status[0] == Status::OK);
         } else {
             seen.refused += 1;
@@ -252,9 +322,9 @@ fn try_all(name: &str, tell: impl Fn(usize)) -> Seen {
         for message in instance.messages() {
             let text = &message.text;
             assert!(!text.contains("panic"), "{name}, byte {at}: {text}");
+            let begin = format!("{}: serialized state: ", I::DESERIALIZE);
             assert!(
-                answer == Status::OK
-                    || text.starts_with("fmi2DeSerializeFMUstate: serialized state: "),
+                answer == Status::OK || text.starts_with(&begin),
                 "{name}, byte {at}: {text}"
             );
         }
@@ -263,31 +333,56 @@ fn try_all(name: &str, tell: impl Fn(usize)) -> Seen {
     seen
 }
 
-#[test]
-fn no_forged_number_makes_a_step_hang_or_panic() {
-    for name in Fmu::all().into_iter().map(|fmu| fmu.name) {
-        let (told, hear) = channel();
-        let thread = std::thread::spawn({
-            let name = name.clone();
-            move || {
-                try_all(&name, |at| {
-                    let _ = told.send(at);
-                })
-            }
-        });
-        let mut last = 0;
-        loop {
-            match hear.recv_timeout(PATIENCE) {
-                Ok(at) => last = at,
-                Err(RecvTimeoutError::Disconnected) => break,
-                Err(RecvTimeoutError::Timeout) => {
-                    panic!("{name}: no answer in {PATIENCE:?} after byte {last} was forged")
-                }
+/// Tries all forgeries on the instance that `make` gives, in a thread whose answers are waited for.
+fn watched<I: Hosted>(
+    name: &str,
+    make: impl FnOnce() -> (I, f64) + Send + 'static,
+    step: impl Fn(&I, f64, f64) -> Status + Send + 'static,
+) {
+    let (told, hear) = channel();
+    let thread = std::thread::spawn({
+        let name = name.to_owned();
+        move || {
+            let (instance, h) = make();
+            try_all(&name, &instance, h, step, |at| {
+                let _ = told.send(at);
+            })
+        }
+    });
+    let mut last = 0;
+    loop {
+        match hear.recv_timeout(PATIENCE) {
+            Ok(at) => last = at,
+            Err(RecvTimeoutError::Disconnected) => break,
+            Err(RecvTimeoutError::Timeout) => {
+                panic!("{name}: no answer in {PATIENCE:?} after byte {last} was forged")
             }
         }
-        let seen = thread
-            .join()
-            .unwrap_or_else(|e| std::panic::resume_unwind(e));
-        assert!(seen.refused > 50 && seen.stepped > 50, "{name}: {seen:?}");
+    }
+    let seen = thread
+        .join()
+        .unwrap_or_else(|e| std::panic::resume_unwind(e));
+    assert!(seen.refused > 50 && seen.stepped > 50, "{name}: {seen:?}");
+}
+
+#[test]
+fn no_forged_number_makes_a_step_hang_or_panic() {
+    for fmu in Fmu::all() {
+        let (name, h) = (fmu.name.clone(), fmu.step_size);
+        watched(&name, move || (moved(&fmu), h), Instance::step);
+    }
+}
+
+#[test]
+fn no_forged_number_makes_a_step_or_an_activation_of_fmi_3_hang_or_panic() {
+    for fmu in all3() {
+        let (name, h) = (fmu.name().to_owned(), fmu.fmi2.step_size);
+        let make = move || (moved3(&fmu, Interface::CoSimulation), h);
+        watched(&name, make, fmi3::Instance::step);
+    }
+    for fmu in fmi3::Fmu::sampled() {
+        let (name, h) = (fmu.name().to_owned(), fmu.fmi2.step_size);
+        let make = move || (moved3(&fmu, Interface::ScheduledExecution), h);
+        watched(&name, make, |instance, t, _| instance.activate(t));
     }
 }

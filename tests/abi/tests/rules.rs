@@ -69,9 +69,6 @@ fn every_deviation_from_the_table_is_in_the_document_with_its_reason() {
     for (functions, phase, reason) in abi::standard::DEVIATIONS {
         assert!(lines(&[phase.name(), reason]), "{functions:?} in {phase:?}");
     }
-    for (what, reason) in abi::standard::DEVIATIONS_FROM_THE_TEXT {
-        assert!(lines(&[what, reason]), "{what}");
-    }
     for (what, reason) in abi::fmi3::standard::DEVIATIONS_FROM_THE_TEXT {
         assert!(lines(&[what, reason]), "{what}");
     }

@@ -1,7 +1,7 @@
 //! Times: experiments, communication points and step sizes that are accepted or refused.
 
 use abi::refusal::refused;
-use abi::{Fmu, Phase, Status};
+use abi::{Fmu, Instance, Phase, Status};
 
 #[test]
 fn step_sizes_that_are_no_step_are_refused_at_once() {
@@ -99,19 +99,72 @@ fn a_wrong_communication_point_is_refused_with_both_times() {
     }
 }
 
+/// Initializes for an experiment that ends.
+fn until(instance: &Instance, start: f64, stop: f64) {
+    assert_eq!(instance.setup_experiment(start, Some(stop)), Status::OK);
+    assert_eq!(instance.enter_initialization_mode(), Status::OK);
+    assert_eq!(instance.exit_initialization_mode(), Status::OK);
+}
+
 #[test]
-fn a_step_past_a_defined_stop_time_is_made() {
+fn a_step_past_the_stop_time_is_refused_with_time_step_and_stop_time_and_a_rounding_is_not() {
     for fmu in Fmu::all() {
         let instance = Phase::Instantiated.enter(&fmu);
-        assert_eq!(instance.setup_experiment(0.0, Some(0.3)), Status::OK);
-        assert_eq!(instance.enter_initialization_mode(), Status::OK);
-        assert_eq!(instance.exit_initialization_mode(), Status::OK);
-        // To 3 * 0.1 s, a rounding past it, and on.
+        until(&instance, 0.0, 0.3);
+        for k in 0..2 {
+            let status = instance.step(f64::from(k) * 0.1, 0.1);
+            assert_eq!(status, Status::OK, "{:?}", instance.messages());
+        }
+        // It begins before the stop time and ends a thousandth of a step behind it.
+        for (h, text) in [(0.1001, "0.1001 s"), (0.2, "0.2 s"), (1e6, "1000000.0 s")] {
+            let parts = [
+                "currentCommunicationPoint = 0.2 s",
+                &format!("communicationStepSize = {text}"),
+                "stopTime = 0.3 s",
+            ];
+            refused(&instance, "fmi2DoStep", &parts, |i| i.step(0.2, h));
+        }
+        // 3 * 0.1 s is a rounding past it.
+        assert!(f64::from(3) * 0.1 > 0.3);
+        assert_eq!(instance.step(0.2, 0.1), Status::OK);
+        refused(&instance, "fmi2DoStep", &["stopTime = 0.3 s"], |i| {
+            i.step(0.3, 0.1)
+        });
+        // A reset forgets it, and another experiment has another one.
+        assert_eq!(instance.reset(), Status::OK);
+        instance.initialize(0.0);
         for k in 0..5 {
             let status = instance.step(f64::from(k) * 0.1, 0.1);
             assert_eq!(status, Status::OK, "{:?}", instance.messages());
         }
-        assert!(f64::from(3) * 0.1 > 0.3);
+        assert_eq!(instance.reset(), Status::OK);
+        until(&instance, -1.0, -0.9);
+        assert_eq!(instance.step(-1.0, 0.1), Status::OK);
+        refused(&instance, "fmi2DoStep", &["stopTime = -0.9 s"], |i| {
+            i.step(-0.9, 0.1)
+        });
+    }
+}
+
+#[test]
+fn a_state_brings_no_stop_time_and_takes_none_away() {
+    for fmu in Fmu::all() {
+        let short = fmu.instantiate();
+        until(&short, 0.0, 0.1);
+        assert_eq!(short.step(0.0, 0.1), Status::OK);
+        let mut end = short.state();
+        let long = fmu.instantiate();
+        until(&long, 0.0, 0.2);
+        assert_eq!(long.set_state(end), Status::OK);
+        assert_eq!(long.step(0.1, 0.1), Status::OK, "{:?}", long.messages());
+        refused(&long, "fmi2DoStep", &["stopTime = 0.2 s"], |i| {
+            i.step(0.2, 0.1)
+        });
+        assert_eq!(short.set_state(end), Status::OK);
+        refused(&short, "fmi2DoStep", &["stopTime = 0.1 s"], |i| {
+            i.step(0.1, 0.1)
+        });
+        assert_eq!(short.free_state(&mut end), Status::OK);
     }
 }
 
@@ -138,6 +191,8 @@ fn an_experiment_that_cannot_be_is_refused() {
         assert_eq!(instance.setup_experiment(-3.0, Some(-3.0)), Status::OK);
         assert_eq!(instance.enter_initialization_mode(), Status::OK);
         assert_eq!(instance.exit_initialization_mode(), Status::OK);
-        assert_eq!(instance.step(-3.0, 0.01), Status::OK);
+        refused(&instance, "fmi2DoStep", &["stopTime = -3.0 s"], |i| {
+            i.step(-3.0, 0.01)
+        });
     }
 }

@@ -168,9 +168,17 @@ impl Imported {
     /// # Errors
     /// Names the call that is refused.
     pub fn initialize(&mut self) -> Result<(), String> {
+        self.initialize_until(None)
+    }
+
+    /// The same with a stop time (s).
+    ///
+    /// # Errors
+    /// Names the call that is refused.
+    pub fn initialize_until(&mut self, stop: Option<f64>) -> Result<(), String> {
         let failed = |what| move |error| format!("{what}: {error:?}");
         self.instance
-            .setup_experiment(None, 0.0, None)
+            .setup_experiment(None, 0.0, stop)
             .map_err(failed("fmi2SetupExperiment"))?;
         self.instance
             .enter_initialization_mode()

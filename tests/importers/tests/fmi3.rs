@@ -199,11 +199,12 @@ fn co_simulation_gives_the_numbers_of_fmi_2() {
             .instantiate_cs("one", false, false, false, false, &[])
             .expect("instantiated");
         prepare(&mut three, &interface, &arrays);
+        let h = interface.experiment.step;
+        let stop = f64::from(STEPS) * h;
         three
-            .enter_initialization_mode(None, 0.0, None)
+            .enter_initialization_mode(None, 0.0, Some(stop))
             .expect("entered");
         three.exit_initialization_mode().expect("left");
-        let h = interface.experiment.step;
         let mut found = Vec::new();
         for k in 0..STEPS {
             set(&mut three, &arrays, k);
@@ -214,6 +215,17 @@ fn co_simulation_gives_the_numbers_of_fmi_2() {
             assert!(!event && !end && !early && (reached - t - h).abs() < 1e-9 * h);
             found.push(outputs(&mut three, &arrays));
         }
+        let (mut event, mut end, mut early, mut reached) = (false, false, false, 0.0);
+        let past = three.do_step(
+            stop,
+            h,
+            true,
+            &mut event,
+            &mut end,
+            &mut early,
+            &mut reached,
+        );
+        past.expect_err("past the stop time");
         three.terminate().expect("terminated");
         same(fmu.name, &found, &expected(&interface, &arrays));
     }
@@ -234,8 +246,9 @@ fn a_scheduler_gets_the_numbers_of_fmi_2() {
             .instantiate_se("one", false, false)
             .expect("instantiated");
         prepare(&mut three, &interface, &arrays);
+        let last = f64::from(STEPS - 1) * interface.experiment.step;
         three
-            .enter_initialization_mode(None, 0.0, None)
+            .enter_initialization_mode(None, 0.0, Some(last))
             .expect("entered");
         three.exit_initialization_mode().expect("left");
         let mut found = Vec::new();
@@ -247,6 +260,10 @@ fn a_scheduler_gets_the_numbers_of_fmi_2() {
                 .expect("activated");
             found.push(outputs(&mut three, &arrays));
         }
+        let past = f64::from(STEPS) * interface.experiment.step;
+        three
+            .activate_model_partition(CLOCK_REFERENCE, past)
+            .expect_err("past the stop time");
         same(fmu.name, &found, &expected(&interface, &arrays));
     }
     assert_eq!(scheduled, 2);

@@ -228,6 +228,19 @@ fn a_restored_state_runs_on_bit_for_bit() {
 }
 
 #[test]
+fn the_last_step_to_the_stop_time_is_made_and_one_past_it_is_refused() {
+    let parts = [Built::new::<TestbedController>(), Built::new::<Testbed>()];
+    for Built(mut part) in parts {
+        part.initialize_until(Some(3.0 * T)).expect("initialized");
+        for k in 0..3 {
+            part.step(f64::from(k) * T, T).expect("within");
+        }
+        let refusal = part.step(3.0 * T, T).expect_err("past the stop time");
+        assert!(refusal.contains("fmi2DoStep(0.006, 0.002)"), "{refusal}");
+    }
+}
+
+#[test]
 fn a_refused_call_leaves_the_instance_usable() {
     let (mut controller, mut plant) = imported();
     run(&mut controller, &mut plant, 0..3);

@@ -61,10 +61,8 @@ class Matrix:
 
 
 def _state(subject: str, platform: str) -> str:
-    """What was done with a subject on a platform: the C host there calls the functions of FMI 2.0."""
-    if not subject.endswith(".fmu"):
-        return STATES["absent"]
-    return STATES["built" if subject.startswith("fmi3/") and platform == "run" else platform]
+    """What was done with a subject on a platform: the C host there calls the functions of both versions."""
+    return STATES[platform if subject.endswith(".fmu") else "absent"]
 
 
 def _files(paths: list[str]) -> str:

@@ -14,7 +14,6 @@
 //! * a refused call changes nothing and leaves the instance in its state (the standard: any `fmi3Error` leads to *Terminated*);
 //!   what is legal in *Terminated* is legal in every other state too, so an importer that counts on it finds it;
 //! * Get is accepted after Set without a step or an activation between them, and shows what was set;
-//! * `fmi3DoStep` past a defined stop time is made, as by FMI 2.0.
 
 use super::{Call, Interface, Phase, table};
 

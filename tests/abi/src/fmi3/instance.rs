@@ -3,6 +3,7 @@
 use super::fmu::{Row, Type, Value};
 use super::library::Library;
 use super::types::*;
+use crate::both::{call, calls_of_both};
 use crate::messages::{Message, Messages, log_message, owned};
 use std::ffi::CString;
 use std::ptr::null;
@@ -64,30 +65,16 @@ pub struct Instance {
     messages: Box<Messages>,
 }
 
-impl Drop for Instance {
-    fn drop(&mut self) {
-        // SAFETY: the component came from a function that instantiates and is freed here only.
-        unsafe { (self.library.fmi3FreeInstance)(self.component) }
-    }
-}
-
-/// SAFETY of the calls below: the component is live, belongs to `library`, and is used by one thread; array arguments are
-/// slices of the length that is passed, or pointers that the caller of the method answers for.
-macro_rules! call {
-    ($self:ident.$function:ident($($argument:expr),*)) => {{
-        // SAFETY: see above.
-        unsafe { ($self.library.$function)($self.component, $($argument),*) }
-    }};
+calls_of_both! {
+    free fmi3FreeInstance; debug fmi3SetDebugLogging; leave fmi3ExitInitializationMode; end fmi3Terminate; reset fmi3Reset;
+    state fmi3GetFMUState fmi3SetFMUState fmi3FreeFMUState;
+    bytes fmi3SerializedFMUStateSize fmi3SerializeFMUState fmi3DeserializeFMUState;
 }
 
 fn c(text: &str) -> CString {
     CString::new(text).expect("no null byte in a test's string")
 }
 
-#[allow(
-    clippy::not_unsafe_ptr_arg_deref,
-    reason = "a state is passed on as it is; the libraries under test follow only those they handed out"
-)]
 impl Instance {
     /// The function of the interface.
     ///
@@ -152,40 +139,10 @@ impl Instance {
         })
     }
 
-    /// The library, for calls with arguments that no safe method offers.
-    pub fn library(&self) -> &Library {
-        &self.library
-    }
-
-    /// The component, for calls with arguments that no safe method offers.
-    pub fn component(&self) -> Component {
-        self.component
-    }
-
-    /// Everything logged since the last call of this.
-    pub fn messages(&self) -> Vec<Message> {
-        self.messages.take()
-    }
-
-    /// The text of the one message logged since the last call.
-    ///
-    /// # Panics
-    /// When there was none or several.
-    pub fn message(&self) -> String {
-        let mut all = self.messages();
-        assert_eq!(all.len(), 1, "expected one message, got {all:?}");
-        all.remove(0).text
-    }
-
     /// fmi3EnterInitializationMode without tolerance; `None` as stop time is undefined.
     pub fn enter_initialization_mode(&self, start: f64, stop: Option<f64>) -> Status {
         let (defined, stop) = (stop.is_some().into(), stop.unwrap_or_default());
         call!(self.fmi3EnterInitializationMode(0, 0.0, start, defined, stop))
-    }
-
-    /// fmi3ExitInitializationMode
-    pub fn exit_initialization_mode(&self) -> Status {
-        call!(self.fmi3ExitInitializationMode())
     }
 
     /// From *Instantiated* through Initialization Mode.
@@ -224,16 +181,6 @@ impl Instance {
     /// fmi3ActivateModelPartition of the clock.
     pub fn activate(&self, t: f64) -> Status {
         call!(self.fmi3ActivateModelPartition(CLOCK, t))
-    }
-
-    /// fmi3Terminate
-    pub fn terminate(&self) -> Status {
-        call!(self.fmi3Terminate())
-    }
-
-    /// fmi3Reset
-    pub fn reset(&self) -> Status {
-        call!(self.fmi3Reset())
     }
 
     /// The function that gets values of the row's type.
@@ -315,74 +262,5 @@ impl Instance {
         let status = call!(self.fmi3GetFloat64(&raw const reference, 1, &raw mut time, 1));
         assert_eq!(status, Status::OK, "{:?}", self.messages());
         time
-    }
-
-    /// fmi3GetFMUState into a new state.
-    ///
-    /// # Panics
-    /// When it is refused.
-    pub fn state(&self) -> FmuState {
-        let mut state = std::ptr::null_mut();
-        let status = call!(self.fmi3GetFMUState(&raw mut state));
-        assert_eq!(status, Status::OK, "{:?}", self.messages());
-        state
-    }
-
-    /// fmi3SetFMUState
-    pub fn set_state(&self, state: FmuState) -> Status {
-        call!(self.fmi3SetFMUState(state))
-    }
-
-    /// fmi3FreeFMUState
-    pub fn free_state(&self, state: &mut FmuState) -> Status {
-        call!(self.fmi3FreeFMUState(&raw mut *state))
-    }
-
-    /// fmi3SerializedFMUStateSize and fmi3SerializeFMUState.
-    ///
-    /// # Panics
-    /// When one is refused.
-    pub fn serialize(&self, state: FmuState) -> Vec<u8> {
-        let mut size = 0;
-        let status = call!(self.fmi3SerializedFMUStateSize(state, &raw mut size));
-        assert_eq!(status, Status::OK, "{:?}", self.messages());
-        let mut bytes = vec![0_u8; size];
-        let status = call!(self.fmi3SerializeFMUState(state, bytes.as_mut_ptr(), size));
-        assert_eq!(status, Status::OK, "{:?}", self.messages());
-        bytes
-    }
-
-    /// fmi3DeserializeFMUState into a new state.
-    ///
-    /// # Errors
-    /// The status that is not fmi3OK.
-    pub fn deserialize(&self, bytes: &[u8]) -> Result<FmuState, Status> {
-        let mut state = std::ptr::null_mut();
-        match call!(self.fmi3DeserializeFMUState(bytes.as_ptr(), bytes.len(), &raw mut state)) {
-            Status::OK => Ok(state),
-            status => Err(status),
-        }
-    }
-
-    /// The whole state as bytes: what two runs must share bit for bit.
-    ///
-    /// # Panics
-    /// When a call is refused.
-    pub fn bytes(&self) -> Vec<u8> {
-        let mut state = self.state();
-        let bytes = self.serialize(state);
-        assert_eq!(self.free_state(&mut state), Status::OK);
-        bytes
-    }
-
-    /// Goes on from bytes of [`bytes`](Self::bytes), of either version of the standard.
-    pub fn restore(&self, bytes: &[u8]) -> Status {
-        let mut state = match self.deserialize(bytes) {
-            Ok(state) => state,
-            Err(status) => return status,
-        };
-        let status = self.set_state(state);
-        assert_eq!(self.free_state(&mut state), Status::OK);
-        status
     }
 }

@@ -28,7 +28,8 @@ struct Pair {
 /// One call.
 #[derive(Clone, Debug)]
 enum Call {
-    Enter(f64),
+    /// Start and stop time.
+    Enter(f64, Option<f64>),
     Leave,
     Step(f64, f64),
     Terminate,
@@ -69,13 +70,13 @@ impl Pair {
         slots: &mut [Option<(Vec<u8>, f64)>; SLOTS],
     ) -> Result<(Status, Status), String> {
         let statuses = match call {
-            Call::Enter(start) => {
-                let set_up = self.two.setup_experiment(*start, None);
+            Call::Enter(start, stop) => {
+                let set_up = self.two.setup_experiment(*start, *stop);
                 let two = match set_up {
                     Status::OK => self.two.enter_initialization_mode(),
                     refused => refused,
                 };
-                (two, self.three.enter_initialization_mode(*start, None))
+                (two, self.three.enter_initialization_mode(*start, *stop))
             }
             Call::Leave => (
                 self.two.exit_initialization_mode(),
@@ -112,19 +113,13 @@ impl Pair {
                 None => (Status::OK, Status::OK),
                 Some((bytes, time)) => {
                     self.time = *time;
-                    let mut state = self
-                        .two
-                        .deserialize(bytes)
-                        .map_err(|status| format!("{status:?}"))?;
-                    let two = self.two.set_state(state);
-                    assert_eq!(self.two.free_state(&mut state), Status::OK);
-                    (two, self.three.restore(bytes))
+                    (self.two.restore(bytes), self.three.restore(bytes))
                 }
             },
         };
         match (call, statuses.0) {
             (Call::Step(t, h), Status::OK) => self.time = t + h,
-            (Call::Enter(start), Status::OK) => self.time = *start,
+            (Call::Enter(start, _), Status::OK) => self.time = *start,
             (Call::Reset, Status::OK) => self.time = 0.0,
             _ => {}
         }
@@ -238,7 +233,12 @@ pub fn play(fmu: &Fmu, calls: u64, seed: u64) -> Result<Played, String> {
         let input = inputs[dice.below(inputs.len())].clone();
         let h = fmu.fmi2.step_size * [1.0, 1.0, 1.0, 2.0, 0.5, -1.0][dice.below(6)];
         let call = match dice.below(100) {
-            0..8 => Call::Enter([0.0, 0.0, 5.0, f64::NAN][dice.below(4)]),
+            0..8 => {
+                let start = [0.0, 0.0, 5.0, f64::NAN][dice.below(4)];
+                let steps = [-1.0, 3.0, 5.0, 1e6][dice.below(4)];
+                let stop = start + steps * fmu.fmi2.step_size;
+                Call::Enter(start, (dice.below(2) == 0).then_some(stop))
+            }
             8..16 => Call::Leave,
             16..50 => Call::Step(pair.time + if dice.below(30) == 0 { 1.0 } else { 0.0 }, h),
             50 => Call::Terminate,
