@@ -180,8 +180,8 @@ class Run:
         import pandas as pd  # noqa: PLC0415
 
         title = html.escape(repr(self).splitlines()[0])
-        table = pd.DataFrame(self._rows(), columns=list(SHORT)).set_index(SHORT[0])
-        return f"<p>{title}</p>{table.to_html(max_rows=SHOWN)}"
+        table = pd.DataFrame(self._rows(), columns=list(SHORT))
+        return f"<p>{title}</p>{table.to_html(max_rows=SHOWN, index=False)}"
 
     def _rows(self) -> list[tuple[str, str, str, str]]:
         return [
