@@ -4,7 +4,6 @@ import json
 import re
 import subprocess
 import sys
-import tomllib
 from pathlib import Path
 from typing import Any
 
@@ -12,8 +11,6 @@ import jsonschema
 import pytest
 
 from exo import __version__, overrides, preflight, results, scenario, selection
-from exo.expansion import home
-from exo.expansion.schema import schema
 from exo.master import plan
 
 from commands import SHORT, exo
@@ -191,47 +188,6 @@ def test_a_pipe_that_is_closed_early_is_no_error() -> None:
     assert process.stderr.read() == b""
     process.stderr.close()
     assert process.wait() == 141
-
-
-FILES = sorted(path for folder in (home(), home() / "bases") for path in folder.iterdir() if path.suffix == ".toml")
-
-
-@pytest.fixture(scope="module")
-def validator() -> jsonschema.Draft202012Validator:
-    """Of scenario files."""
-    published = json.loads(exo("schema").stdout)
-    assert published == schema()
-    jsonschema.Draft202012Validator.check_schema(published)
-    return jsonschema.Draft202012Validator(published)
-
-
-@pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)
-def test_every_scenario_file_follows_the_published_schema(
-    path: Path, validator: jsonschema.Draft202012Validator
-) -> None:
-    validator.validate(tomllib.loads(path.read_text(encoding="utf-8")))
-
-
-@pytest.mark.parametrize(
-    ("text", "where"),
-    [
-        ("speed = 3", "$"),
-        ('duration = "long"', "$.duration"),
-        ("duration = 0.0", "$.duration"),
-        ('wiring = "by_hand"', "$.wiring"),
-        ('coupling = "late"', "$.coupling"),
-        ("[metrics.a]\ntitel = 3", "$.metrics"),
-        ("[metrics.a]\ncheck = { atmost = 3 }", "$.metrics"),
-        ("[cases.a]\nlable = 3", "$.cases"),
-        ('[[profiles.tau_h]]\nkind = "sinus"', "$.profiles.tau_h"),
-        ("[parameters]\nK = 3", "$.parameters"),
-        ("cases = []\n[components.a]\narchiv = 3", "$.components.a"),
-    ],
-)
-def test_a_wrong_file_does_not_follow_the_schema(
-    text: str, where: str, validator: jsonschema.Draft202012Validator
-) -> None:
-    assert where in [error.json_path for error in validator.iter_errors(tomllib.loads(text))]
 
 
 def test_inputs_that_nothing_feeds_are_known_as_arrays() -> None:

@@ -302,8 +302,8 @@ class Instance:
         del _MESSAGES[self._environment]
 
     def last_message(self) -> str:
-        """The FMU's last log message."""
-        return self.messages[-1][1] if self.messages else "(the FMU logged nothing)"
+        """The FMU's last log message, in one line."""
+        return " ".join(self.messages[-1][1].splitlines()) if self.messages else "(the FMU logged nothing)"
 
     def fail(self, function: str, status: int) -> FmuError:
         """The error for a call that returned another status than OK."""

@@ -170,10 +170,9 @@ def replaced_file(path: Path) -> Iterator[Path]:
         raise ExoError(f"{path}: cannot be written: {error.strerror or error}; expected a folder") from error
     try:
         yield fresh / path.name
-        try:
-            (fresh / path.name).replace(path)
-        except OSError as error:
-            raise ExoError(f"{path}: cannot be replaced: {error.strerror or error}; expected a file") from error
+        (fresh / path.name).replace(path)
+    except OSError as error:
+        raise ExoError(f"{path}: cannot be written: {error.strerror or error}") from error
     finally:
         shutil.rmtree(fresh, ignore_errors=True)
 

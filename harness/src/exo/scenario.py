@@ -342,7 +342,8 @@ def parse(*, text: str, origin: str, folder: Traversable | None = None) -> Scena
 def from_tables(tables: Mapping[str, Any], *, origin: str = "scenario") -> Scenario:
     """A scenario from the tables of such a file as Python's dictionaries and lists. Tuples are lists, what NumPy holds
     are numbers; a path to a base starts in the present folder."""
-    return _from_data(plain_values(tables, where=origin), origin=origin, folder=None)
+    data = expansion.placed(plain_values(tables, where=origin), origin=origin)
+    return _from_data(data, origin=origin, folder=None)
 
 
 def _from_data(data: dict[str, Any], *, origin: str, folder: Traversable | None) -> Scenario:

@@ -118,7 +118,7 @@ class Fmu:
         """What a notebook shows."""
         import html  # noqa: PLC0415
 
-        return f"<p>{html.escape(self._title())}</p>{self._short().to_html(max_rows=SHOWN, na_rep='')}"
+        return f"<p>{html.escape(self._title())}</p>{self._short().to_html(max_rows=SHOWN, index=False)}"
 
     def _title(self) -> str:
         what = f"{self.path.name} {self.version}".strip()
@@ -127,7 +127,7 @@ class Fmu:
         return f"{what}: {counts}{broken}"
 
     def _short(self) -> Any:
-        return self.frame()[list(SHORT[1:])].fillna("")
+        return self.frame().reset_index()[list(SHORT)].fillna("")
 
 
 def load(fmu: str | PathLike[str], *, fmu_dir: str | PathLike[str] | None = None) -> Fmu:

@@ -2,7 +2,7 @@
 
 import json
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from fnmatch import translate
 from os import PathLike
@@ -132,7 +132,7 @@ class Run:
         names = self.names(*patterns)
         variables: dict[str, Any] = {}
         coordinates: dict[str, Any] = {TIME: (TIME, self.time, {"units": "s"})}
-        for name, members in _arrays(names).items():
+        for name, members in _arrays(names, self.signals).items():
             attributes = {"units": self.units[members[0]]}
             if members == [name]:
                 variables[name] = (TIME, self.signals[name], attributes)
@@ -180,8 +180,8 @@ class Run:
         import pandas as pd  # noqa: PLC0415
 
         title = html.escape(repr(self).splitlines()[0])
-        table = pd.DataFrame(self._rows(), columns=list(SHORT)).set_index(SHORT[0])
-        return f"<p>{title}</p>{table.to_html(max_rows=SHOWN)}"
+        table = pd.DataFrame(self._rows(), columns=list(SHORT))
+        return f"<p>{title}</p>{table.to_html(max_rows=SHOWN, index=False)}"
 
     def _rows(self) -> list[tuple[str, str, str, str]]:
         return [
@@ -190,20 +190,22 @@ class Run:
         ]
 
 
-def _arrays(names: list[str]) -> dict[str, list[str]]:
-    """Names of arrays with their elements in order; what is no whole array, from 1 on, stays by element."""
+def _arrays(names: list[str], signals: Iterable[str]) -> dict[str, list[str]]:
+    """The names by variable: all elements of an array that are among `signals` are one, in their order. Where one of
+    them is missing in `names`, or the first is not number 1, each stays by itself."""
     groups: dict[str, dict[int, str]] = {}
-    for name in names:
+    for name in signals:
         if found := ELEMENT.fullmatch(name):
             groups.setdefault(found[1], {})[int(found[2])] = name
-    whole = {
-        name: [one[i] for i in sorted(one)] for name, one in groups.items() if sorted(one) == [*range(1, len(one) + 1)]
-    }
     arrays: dict[str, list[str]] = {}
     for name in names:
         found = ELEMENT.fullmatch(name)
-        array = found[1] if found and found[1] in whole and found[1] not in names else name
-        arrays[array] = whole[array] if array != name else [name]
+        array = groups[found[1]] if found else {}
+        whole = sorted(array) == [*range(1, len(array) + 1)] and set(array.values()) <= set(names)
+        if found and whole and found[1] not in names:
+            arrays[found[1]] = [array[i] for i in sorted(array)]
+        else:
+            arrays[name] = [name]
     return arrays
 
 

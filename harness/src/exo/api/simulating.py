@@ -65,6 +65,8 @@ def simulate(
 
     ScenarioError and FmuError name what is wrong: the thing, its value and what was expected.
     """
+    if engine is not None and engine not in loop.ENGINES:
+        raise ScenarioError(f"engine {engine!r}: expected one of {', '.join(loop.ENGINES)}")
     chosen: Engine = loop.fastest() if engine is None else loop.named(engine)
     with ExitStack() as stack:
         if isinstance(what, System):

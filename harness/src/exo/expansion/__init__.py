@@ -17,9 +17,9 @@ from exo import presets
 from exo.errors import ScenarioError, close_matches
 from exo.expansion import entries, figures, wiring
 from exo.expansion.axes import Axes
-from exo.expansion.base import home, joined, read, text_of
+from exo.expansion.base import home, joined, placed, read, text_of
 
-__all__ = ["expanded", "home", "joined", "read", "text_of"]
+__all__ = ["expanded", "home", "joined", "placed", "read", "text_of"]
 
 
 def expanded(data: dict[str, Any], *, origin: str) -> dict[str, Any]:

@@ -1,6 +1,7 @@
 """`base`: a scenario starts from another file, and whatever stands in it replaces what the base says."""
 
 import tomllib
+from collections.abc import Mapping
 from importlib import resources
 from importlib.resources.abc import Traversable
 from pathlib import Path
@@ -33,14 +34,23 @@ def text_of(file: Traversable, *, origin: str) -> str:
 
 
 def read(text: str, *, origin: str) -> dict[str, Any]:
-    """The tables of a TOML text, with `parameters` put where they belong: into the components."""
+    """The tables of a TOML text, as `placed`."""
     try:
         data = tomllib.loads(text)
     except ValueError as error:  # beside TOMLDecodeError: an integer of thousands of digits
         raise ScenarioError(f"{origin}: not TOML: {error}") from error
+    return placed(data, origin=origin)
+
+
+def placed(tables: Mapping[str, Any], *, origin: str) -> dict[str, Any]:
+    """The tables of a file with `parameters` put where they belong: into the components."""
+    data = dict(tables)
     parameters = data.pop("parameters", {})
     if not isinstance(parameters, dict):
         raise ScenarioError(f'{origin}: parameters: got {parameters!r}; expected a table of "component.name" = value')
+    components = data.get("components", {})
+    if not isinstance(components, dict):
+        raise ScenarioError(f"{origin}: components: got {components!r:.80}; expected a table of components by name")
     own: dict[str, Any] = {}
     for key, value in parameters.items():
         component, dot, name = key.partition(".")

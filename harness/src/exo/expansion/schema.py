@@ -18,13 +18,17 @@ Schema = dict[str, Any]
 SCALAR: Schema = {"type": ["string", "number", "boolean"]}
 #: `[axes]`: a list of values, or a table of fields for each value.
 AXIS: Schema = {
-    "anyOf": [
-        {"type": "array", "minItems": 1, "items": SCALAR},
-        {"type": "object", "minProperties": 1, "additionalProperties": {"type": "object"}},
-    ]
+    "type": ["array", "object"],
+    "minItems": 1,
+    "items": SCALAR,
+    "minProperties": 1,
+    "additionalProperties": {"type": "object"},
 }
 #: Arrays at once, and fields of the elements of an array.
-VALUE: Schema = {"anyOf": [SCALAR, {"type": "array", "items": {"anyOf": [SCALAR, {"type": "object"}]}}]}
+VALUE: Schema = {
+    "type": [*SCALAR["type"], "array"],
+    "items": {"type": [*SCALAR["type"], "object"]},
+}
 OVER: Schema = {
     "description": "Of each axis only these values.",
     "type": "object",
@@ -55,7 +59,7 @@ def schema() -> Schema:
     properties["Case"]["preset"] = {"description": "Gains that belong together, by name.", "type": "string"}
     models["Case"]["patternProperties"] = {r"\.": VALUE}
     properties["Case"]["parameters"] = properties["Component"]["parameters"] = _table(VALUE)
-    profiles = _table({"anyOf": [{"type": "array", "items": {"$ref": "#/$defs/Segment"}}, {"type": "string"}]})
+    profiles = _table({"type": ["array", "string"], "items": {"$ref": "#/$defs/Segment"}})
     for name in ("Case", "Scenario"):
         properties[name]["inputs"] = _table({"type": "string"})
         properties[name]["profiles"] = profiles
@@ -105,5 +109,6 @@ def _table(values: Schema) -> Schema:
 
 
 def _by_id(model: str) -> Schema:
+    """A table of entries by id, or an array of them. Not as `anyOf`: a slip in one entry is told at its place so."""
     one = {"$ref": f"#/$defs/{model}"}
-    return {"anyOf": [_table(one), {"type": "array", "items": one}]}
+    return {"type": ["object", "array"], "additionalProperties": one, "items": one}
