@@ -1,24 +1,26 @@
 """The two engines give the same recordings bit for bit, and the same errors."""
 
 import json
+import sys
 import threading
 from contextlib import ExitStack
 from dataclasses import replace
 from pathlib import Path
 from time import perf_counter
+from types import ModuleType
 from typing import Any
 
 import numpy as np
 import pytest
 
-from exo import loop, simulate
+from exo import __version__, loop, simulate
 from exo.errors import ExoError, FmuError
 from exo.fmu import Archive
 from exo.pace import Deadlines
 from exo.recording import Recording
 from exo.scenario import Case, Coupling, Scenario, Segment, built_in, load
 
-from commands import exo
+from commands import SHORT, exo
 
 #: Steps of each case that are compared: enough for a force to act, few enough for every case of every scenario.
 STEPS = 400
@@ -162,3 +164,37 @@ def test_the_command_line_tells_the_deadlines(tmp_path: Path) -> None:
     assert "100 steps of 2 ms by the clock" in " ".join(answer.stdout.split())
     told = json.loads((tmp_path / "wall" / "metrics.json").read_text())["run"]["cases"]["passive_bounded_5_0.5"]
     assert told["deadlines"]["steps"] == 100
+
+
+@pytest.mark.parametrize(
+    ("version", "interface", "found"),
+    [
+        ("0.0.9", loop.INTERFACE, "0.0.9, interface 1"),
+        (__version__, 0, "interface 0"),
+        (__version__, None, "interface 0"),
+    ],
+)
+def test_a_wheel_of_another_harness_is_refused_with_the_command_that_mends_it(
+    version: str, interface: int | None, found: str, fmu_dir: Path, tmp_path: Path, monkeypatch: Any
+) -> None:
+    """Also where native is only the engine that is taken by itself: the other one would be slow for no visible reason."""
+    wheel: Any = ModuleType("exo_native")
+    wheel.__version__ = version
+    if interface is not None:
+        wheel.INTERFACE = interface
+    monkeypatch.setitem(sys.modules, "exo_native", wheel)
+    (tmp_path / "short.toml").write_text(SHORT)
+    answer = exo("run", tmp_path / "short.toml", "--engine", "native", "--fmu-dir", fmu_dir, "--out", tmp_path)
+    said = " ".join(answer.stderr.split())
+    assert answer.exit_code == 2
+    assert f"the wheel exo-native {has['__version__']}, interface {has.get('INTERFACE', 0)}, is installed" in said
+    assert f"expected {__version__}, interface {loop.INTERFACE}: `cargo xtask native` builds and installs it" in said
+    with pytest.raises(ExoError, match="cargo xtask native"):
+        loop.fastest()
+
+
+def test_without_a_wheel_the_engine_is_fmpy(monkeypatch: Any) -> None:
+    monkeypatch.setitem(sys.modules, "exo_native", None)
+    assert loop.fastest() == "fmpy"
+    with pytest.raises(ExoError, match="engine native is not installed: `cargo xtask native`"):
+        loop.named("native")

@@ -130,6 +130,11 @@ def changed(K: float, *, at: float, engine: loop.Engine, fmu_dir: Path) -> float
         ({"controller.law": "passive"}, None, "expected a name and a list of values, got passive"),
         ({"controller.law": ["passive", 3]}, None, "expected values of one kind, got the text passive, the number 3"),
         (pa.table([[1.0], [2.0]], names=["controller.K"] * 2), None, "expected each column once"),
+        (
+            {"controller.K": [1.0]},
+            19.0005,
+            "branch_at = 19.0005 s: expected a multiple of the step 0.002 s, as 19 or 19.002 s",
+        ),
         ({"controller.K": [1.0]}, math.nan, "branch_at = nan s: expected a time within the run"),
     ],
 )
