@@ -167,21 +167,20 @@ def test_the_command_line_tells_the_deadlines(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("version", "interface", "found"),
+    "has",
     [
-        ("0.0.9", loop.INTERFACE, "0.0.9, interface 1"),
-        (__version__, 0, "interface 0"),
-        (__version__, None, "interface 0"),
+        {"__version__": "0.0.9", "INTERFACE": loop.INTERFACE},
+        {"__version__": __version__, "INTERFACE": loop.INTERFACE + 1},
+        {"__version__": __version__},
     ],
+    ids=["another version", "another interface", "older than interfaces"],
 )
 def test_a_wheel_of_another_harness_is_refused_with_the_command_that_mends_it(
-    version: str, interface: int | None, found: str, fmu_dir: Path, tmp_path: Path, monkeypatch: Any
+    has: dict[str, Any], fmu_dir: Path, tmp_path: Path, monkeypatch: Any
 ) -> None:
-    """Also where native is only the engine that is taken by itself: the other one would be slow for no visible reason."""
-    wheel: Any = ModuleType("exo_native")
-    wheel.__version__ = version
-    if interface is not None:
-        wheel.INTERFACE = interface
+    """Also where native is only the engine that is taken by itself: the other one would be slow without a reason."""
+    wheel = ModuleType("exo_native")
+    vars(wheel).update(has)
     monkeypatch.setitem(sys.modules, "exo_native", wheel)
     (tmp_path / "short.toml").write_text(SHORT)
     answer = exo("run", tmp_path / "short.toml", "--engine", "native", "--fmu-dir", fmu_dir, "--out", tmp_path)

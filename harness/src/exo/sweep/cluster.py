@@ -4,6 +4,9 @@ A worker that is lost loses its chunks to others: Dask sends them again. A sched
 was under way: when it is there again, the rows that are not kept are sent anew.
 """
 
+import asyncio
+import queue as queue_of
+import threading
 import time
 from collections.abc import Iterator, Mapping
 from importlib import metadata
@@ -89,10 +92,37 @@ def _lost() -> tuple[type[BaseException], ...]:
 def _client(scheduler: str) -> Any:
     distributed = _dask()
     try:
+        _reach(scheduler)
         return distributed.Client(scheduler, timeout=ANSWER_S, set_as_default=False)
     except (ValueError, TypeError, AssertionError) as error:
         said = str(error) or "no address"
         raise ExoError(f"--scheduler {scheduler}: {said}; expected an address as tcp://10.0.0.1:8786") from error
+
+
+def _reach(scheduler: str) -> None:
+    """TimeoutError or OSError, if no scheduler shakes hands. A `Client` waits for ever for a port that says nothing."""
+    distributed, answers = _dask(), queue_of.SimpleQueue[BaseException | None]()
+
+    async def shake() -> None:
+        secrets = distributed.Security().get_connection_args("client")
+        comm = await distributed.comm.connect(scheduler, timeout=ANSWER_S, **secrets)
+        comm.abort()
+
+    def ask() -> None:
+        try:
+            asyncio.run(shake())
+            answers.put(None)
+        except BaseException as error:
+            answers.put(error)
+
+    # In a thread that can be left behind.
+    threading.Thread(target=ask, daemon=True).start()
+    try:
+        error = answers.get(timeout=ANSWER_S + LOOK_S)
+    except queue_of.Empty:
+        error = TimeoutError(f"silence for {ANSWER_S:g} s")
+    if error is not None:
+        raise error
 
 
 def _check(client: Any, scheduler: str) -> None:
