@@ -66,3 +66,9 @@ def test_a_figure_that_cannot_be_drawn_leaves_the_others_and_says_where_the_runs
     with pytest.raises(ExoError, match=r"figure none: no row has tank; the runs are in .*runs\.parquet"):
         sweep.sweep(study_file, out=tmp_path, workers=1, fmu_dir=fmu_dir)
     assert (tmp_path / "small" / "map.png").exists()
+
+
+def test_where_all_runs_failed_the_first_reason_is_told(study_file: Path, fmu_dir: Path, tmp_path: Path) -> None:
+    study_file.write_text(WALL.replace("[10.0, 20.0, 30.0]", "[-1.0, -2.0]"))
+    with pytest.raises(ExoError, match=r"no row has .*; 4 of 4 failed, the first: .*K = -1.*; the runs are in"):
+        sweep.sweep(study_file, out=tmp_path, workers=1, fmu_dir=fmu_dir)

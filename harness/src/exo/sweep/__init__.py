@@ -121,11 +121,13 @@ def sweep(
         from exo.sweep import pictures  # noqa: PLC0415
 
         drawn, wrong = [], []
+        reasons = table[FAILURE].drop_null()
         for figure in study.figures:
             try:
                 drawn.append(pictures.draw(figure, study, table, store.folder))
             except ExoError as error:
-                wrong.append(f"{error}; the runs are in {store.folder / TABLE}")
+                why = f"; {len(reasons)} of {table.num_rows} failed, the first: {reasons[0]}" if len(reasons) else ""
+                wrong.append(f"{error}{why}; the runs are in {store.folder / TABLE}")
     if wrong:
         raise ExoError("\n".join(wrong))
     return Swept(store.folder, table, tuple(drawn))
