@@ -184,6 +184,12 @@ def test_a_row_that_memory_does_not_hold_is_a_row_with_its_reason(fmu_dir: Path,
     assert found["tank"][0] == found["tank"][2]
 
 
+def test_a_number_of_a_profile_that_is_none_is_named(fmu_dir: Path) -> None:
+    for value, said in ((math.nan, "Input should be a finite number"), ("x", "Input should be a valid number")):
+        found = exo.batch("wall", {"profile.tau_h.1.amplitude": [value]}, cases=[WALL], fmu_dir=fmu_dir)
+        assert found[FAILURE][0].as_py().startswith(f"profile.tau_h.1.amplitude = {value}: {said}")
+
+
 def test_a_branch_beyond_the_run_is_named(fmu_dir: Path) -> None:
     with pytest.raises(ExoError, match=r"branch_at = 1000 s: expected a time within the run"):
         exo.batch("wall", {"controller.K": [1.0]}, cases=[WALL], branch_at=1000.0, fmu_dir=fmu_dir)

@@ -1,5 +1,6 @@
 """Sweeps: the table, its folder, rows that fail."""
 
+import errno
 import json
 import tempfile
 from collections import Counter
@@ -9,7 +10,7 @@ from typing import Any
 import pyarrow.parquet as pq
 import pytest
 
-from exo import sweep
+from exo import folder, sweep
 from exo.errors import ExoError
 from exo.runs import FAILURE
 from exo.sweep import store
@@ -67,6 +68,26 @@ def test_a_row_that_fails_is_a_row_with_its_reason(study_file: Path, fmu_dir: Pa
     errors = done.table[FAILURE].to_pylist()
     assert errors[:2] == [None, None]
     assert all("K = -1" in text and "expected a value from" in text for text in errors[2:])
+
+
+def test_a_full_disk_is_named_and_what_is_finished_is_kept(
+    study_file: Path, fmu_dir: Path, tmp_path: Path, monkeypatch: Any
+) -> None:
+    plain, written = folder.write_file, []
+
+    def write_file(path: Path, data: bytes) -> None:
+        written.append(path)
+        if len(written) == 3:  # the study's file, a part, and this
+            raise OSError(errno.ENOSPC, "No space left on device")
+        plain(path, data)
+
+    monkeypatch.setattr(folder, "write_file", write_file)
+    with pytest.raises(ExoError, match=r"parquet: No space left on device; what was finished is kept"):
+        sweep.sweep(study_file, out=tmp_path, workers=1, fmu_dir=fmu_dir)
+    told: list[sweep.Progress] = []
+    done = sweep.sweep(study_file, out=tmp_path, workers=1, fmu_dir=fmu_dir, tell=told.append)
+    assert told[0].kept_before > 0
+    assert done.table[store.ROW].to_pylist() == list(range(6))
 
 
 def test_the_table_opens_in_parquet_with_what_was_asked_for_beside_it(

@@ -27,6 +27,7 @@ from typing import Any, Self
 
 import numpy as np
 import pyarrow as pa
+from pydantic import ValidationError
 
 from exo import derived, preflight, selection, trial
 from exo import loop as loops
@@ -345,8 +346,10 @@ def _segment(of: Plan, key: str) -> tuple[str, int, str, Segment]:
 def _changed(segment: Segment, field: str, value: Value, key: str) -> Segment:
     try:
         return Segment.model_validate({**segment.model_dump(), field: value})
-    except ValueError as error:
-        raise ScenarioError(f"{key} = {value}: {str(error).splitlines()[-1].strip()}") from error
+    except ValidationError as error:
+        problem = error.errors(include_url=False)[0]
+        said = str(problem["ctx"]["error"]) if problem["type"] == "value_error" else problem["msg"]
+        raise ScenarioError(f"{key} = {value}: {said}") from error
 
 
 class _Look:
