@@ -1,12 +1,15 @@
 """The two engines give the same recordings bit for bit, and the same errors."""
 
 import json
+import os
+import signal
+import subprocess
 import sys
 import threading
 from contextlib import ExitStack
 from dataclasses import replace
 from pathlib import Path
-from time import perf_counter
+from time import perf_counter, sleep
 from types import ModuleType
 from typing import Any
 
@@ -197,3 +200,36 @@ def test_without_a_wheel_the_engine_is_fmpy(monkeypatch: Any) -> None:
     assert loop.fastest() == "fmpy"
     with pytest.raises(ExoError, match="engine native is not installed: `cargo xtask native`"):
         loop.named("native")
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="signals")
+@pytest.mark.parametrize(("number", "code"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
+def test_a_run_by_the_clock_that_is_ended_leaves_the_results_that_were_there(
+    number: int, code: int, fmu_dir: Path, tmp_path: Path
+) -> None:
+    (tmp_path / "short.toml").write_text(SHORT)
+    (tmp_path / "temporary").mkdir()
+    arguments = ["run", tmp_path / "short.toml", "--fmu-dir", fmu_dir, "--out", tmp_path / "out", "--engine", "native"]
+    assert exo(*arguments).exit_code == 0
+    before = contents(tmp_path / "out")
+    process = subprocess.Popen(
+        [sys.executable, "-m", "exo.cli", *map(str, arguments), "--real-time", "--duration", "600"],
+        stderr=subprocess.PIPE,
+        text=True,
+        env={**os.environ, "TMPDIR": str(tmp_path / "temporary")},
+        # A job in the background has SIGINT ignored, and its children, too.
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler),  # noqa: PLW1509  one thread here
+    )
+    while len(list((tmp_path / "temporary").glob("exo-fmu-*"))) < 2:  # both archives are open
+        assert process.poll() is None
+        sleep(0.05)
+    sleep(1.0)
+    process.send_signal(number)
+    _, said = process.communicate(timeout=60)
+    assert process.returncode == code, said
+    assert "Traceback" not in said
+    assert contents(tmp_path / "out") == before
+
+
+def contents(folder: Path) -> dict[str, bytes]:
+    return {path.name: path.read_bytes() for path in sorted(folder.rglob("*")) if path.is_file()}

@@ -72,3 +72,12 @@ def test_where_all_runs_failed_the_first_reason_is_told(study_file: Path, fmu_di
     study_file.write_text(WALL.replace("[10.0, 20.0, 30.0]", "[-1.0, -2.0]"))
     with pytest.raises(ExoError, match=r"no row has .*; 4 of 4 failed, the first: .*K = -1.*; the runs are in"):
         sweep.sweep(study_file, out=tmp_path, workers=1, fmu_dir=fmu_dir)
+
+
+def test_the_median_of_many_points_goes_through_their_middle_whatever_lies_outside() -> None:
+    x = np.random.default_rng(1).uniform(0.0, 10.0, 5_000)
+    y = 2.0 * x + np.tile([-1.0, 0.0, 0.0, 0.0, 50.0], 1_000)
+    at, middle = pictures._medians(x, y)
+    assert len(at) == pictures.PARTS
+    # Within a part x goes by 0.4; half of it, twice.
+    assert abs(middle - 2.0 * at).max() < 0.4
