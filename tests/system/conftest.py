@@ -17,6 +17,7 @@ from exo.fmu import Archive, find_fmu_dir
 from exo.recording import Recording
 
 from foreign.matrix import names
+from sweeping import WALL
 
 NAMES = names()
 
@@ -93,6 +94,14 @@ def archives(fmu_dir: Path) -> Iterator[Mapping[str, Archive]]:
     """All archives, extracted, by file name."""
     with ExitStack() as stack:
         yield {f"{name}.fmu": stack.enter_context(Archive(fmu_dir / f"{name}.fmu")) for name in NAMES}
+
+
+@pytest.fixture
+def study_file(tmp_path: Path) -> Path:
+    """A file with a small study, to be changed."""
+    path = tmp_path / "study.toml"
+    path.write_text(WALL)
+    return path
 
 
 @pytest.fixture(scope="module")

@@ -1,24 +1,29 @@
 """The two engines give the same recordings bit for bit, and the same errors."""
 
 import json
+import os
+import signal
+import subprocess
+import sys
 import threading
 from contextlib import ExitStack
 from dataclasses import replace
 from pathlib import Path
-from time import perf_counter
+from time import perf_counter, sleep
+from types import ModuleType
 from typing import Any
 
 import numpy as np
 import pytest
 
-from exo import loop, master
+from exo import __version__, loop, master
 from exo.errors import ExoError, FmuError
 from exo.fmu import Archive
 from exo.pace import Deadlines
 from exo.recording import Recording
 from exo.scenario import Case, Coupling, Scenario, Segment, built_in, load
 
-from commands import exo
+from commands import SHORT, exo
 
 #: Steps of each case that are compared: enough for a force to act, few enough for every case of every scenario.
 STEPS = 400
@@ -162,3 +167,69 @@ def test_the_command_line_tells_the_deadlines(tmp_path: Path) -> None:
     assert "100 steps of 2 ms by the clock" in " ".join(answer.stdout.split())
     told = json.loads((tmp_path / "wall" / "metrics.json").read_text())["run"]["cases"]["passive_bounded_5_0.5"]
     assert told["deadlines"]["steps"] == 100
+
+
+@pytest.mark.parametrize(
+    "has",
+    [
+        {"__version__": "0.0.9", "INTERFACE": loop.INTERFACE},
+        {"__version__": __version__, "INTERFACE": loop.INTERFACE + 1},
+        {"__version__": __version__},
+    ],
+    ids=["another version", "another interface", "older than interfaces"],
+)
+def test_a_wheel_of_another_harness_is_refused_with_the_command_that_mends_it(
+    has: dict[str, Any], fmu_dir: Path, tmp_path: Path, monkeypatch: Any
+) -> None:
+    """Also where native is only the engine that is taken by itself: the other one would be slow without a reason."""
+    wheel = ModuleType("exo_native")
+    vars(wheel).update(has)
+    monkeypatch.setitem(sys.modules, "exo_native", wheel)
+    (tmp_path / "short.toml").write_text(SHORT)
+    answer = exo("run", tmp_path / "short.toml", "--engine", "native", "--fmu-dir", fmu_dir, "--out", tmp_path)
+    said = " ".join(answer.stderr.split())
+    assert answer.exit_code == 2
+    assert f"the wheel exo-native {has['__version__']}, interface {has.get('INTERFACE', 0)}, is installed" in said
+    assert f"expected {__version__}, interface {loop.INTERFACE}: `cargo xtask native` builds and installs it" in said
+    with pytest.raises(ExoError, match="cargo xtask native"):
+        loop.fastest()
+
+
+def test_without_a_wheel_the_engine_is_fmpy(monkeypatch: Any) -> None:
+    monkeypatch.setitem(sys.modules, "exo_native", None)
+    assert loop.fastest() == "fmpy"
+    with pytest.raises(ExoError, match="engine native is not installed: `cargo xtask native`"):
+        loop.named("native")
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="signals")
+@pytest.mark.parametrize(("number", "code"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
+def test_a_run_by_the_clock_that_is_ended_leaves_the_results_that_were_there(
+    number: int, code: int, fmu_dir: Path, tmp_path: Path
+) -> None:
+    (tmp_path / "short.toml").write_text(SHORT)
+    (tmp_path / "temporary").mkdir()
+    arguments = ["run", tmp_path / "short.toml", "--fmu-dir", fmu_dir, "--out", tmp_path / "out", "--engine", "native"]
+    assert exo(*arguments).exit_code == 0
+    before = contents(tmp_path / "out")
+    process = subprocess.Popen(
+        [sys.executable, "-m", "exo.cli", *map(str, arguments), "--real-time", "--duration", "600"],
+        stderr=subprocess.PIPE,
+        text=True,
+        env={**os.environ, "TMPDIR": str(tmp_path / "temporary")},
+        # A job in the background has SIGINT ignored, and its children, too.
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler),  # noqa: PLW1509  one thread here
+    )
+    while len(list((tmp_path / "temporary").glob("exo-fmu-*"))) < 2:  # both archives are open
+        assert process.poll() is None
+        sleep(0.05)
+    sleep(1.0)
+    process.send_signal(number)
+    _, said = process.communicate(timeout=60)
+    assert process.returncode == code, said
+    assert "Traceback" not in said
+    assert contents(tmp_path / "out") == before
+
+
+def contents(folder: Path) -> dict[str, bytes]:
+    return {path.name: path.read_bytes() for path in sorted(folder.rglob("*")) if path.is_file()}

@@ -130,6 +130,11 @@ def changed(K: float, *, at: float, engine: loop.Engine, fmu_dir: Path) -> float
         ({"controller.law": "passive"}, None, "expected a name and a list of values, got passive"),
         ({"controller.law": ["passive", 3]}, None, "expected values of one kind, got the text passive, the number 3"),
         (pa.table([[1.0], [2.0]], names=["controller.K"] * 2), None, "expected each column once"),
+        (
+            {"controller.K": [1.0]},
+            19.0005,
+            "branch_at = 19.0005 s: expected a multiple of the step 0.002 s, as 19 or 19.002 s",
+        ),
         ({"controller.K": [1.0]}, math.nan, "branch_at = nan s: expected a time within the run"),
     ],
 )
@@ -177,6 +182,12 @@ def test_a_row_that_memory_does_not_hold_is_a_row_with_its_reason(fmu_dir: Path,
     found = exo.batch("wall", {"duration": [60.0, 1e5, 60.0]}, cases=[WALL], fmu_dir=fmu_dir).to_pydict()
     assert found[FAILURE] == [None, "out of memory; expected a shorter duration or a longer step", None]
     assert found["tank"][0] == found["tank"][2]
+
+
+def test_a_number_of_a_profile_that_is_none_is_named(fmu_dir: Path) -> None:
+    for value, said in ((math.nan, "Input should be a finite number"), ("x", "Input should be a valid number")):
+        found = exo.batch("wall", {"profile.tau_h.1.amplitude": [value]}, cases=[WALL], fmu_dir=fmu_dir)
+        assert found[FAILURE][0].as_py().startswith(f"profile.tau_h.1.amplitude = {value}: {said}")
 
 
 def test_a_branch_beyond_the_run_is_named(fmu_dir: Path) -> None:

@@ -7,6 +7,9 @@ use std::time::Duration;
 /// How long the loop runs before Python may see a signal, for instance Ctrl-C.
 const PATIENCE: Duration = Duration::from_millis(50);
 
+/// What `run` takes and returns: a new number for each change, here and in `exo.loop`, so that no harness calls another one's wheel.
+const INTERFACE: u32 = 1;
+
 /// Address, value references, their number, first row, size of a row in bytes.
 type CallAddresses = (usize, usize, usize, usize, usize);
 /// Target's column in row 0, size of its rows; source's column in its first row, size of its rows; bytes of the value; whether
@@ -95,5 +98,6 @@ fn component((instance, do_step, copies, writes, reads): ComponentAddresses) -> 
 #[pymodule]
 fn exo_native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
+    module.add("INTERFACE", INTERFACE)?;
     module.add_function(wrap_pyfunction!(run, module)?)
 }

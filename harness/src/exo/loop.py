@@ -17,12 +17,15 @@ from typing import Any, Literal, get_args
 import numpy as np
 from numpy.typing import NDArray
 
+from exo import __version__
 from exo.errors import ExoError, FmuError
 from exo.fmu import DTYPES, Instance, Kind, References
 from exo.pace import Pace
 
 Engine = Literal["fmpy", "native"]
 ENGINES: tuple[Engine, ...] = get_args(Engine)
+#: What `_run_native` hands over and gets back; `INTERFACE` of `harness/native/src/python.rs` is the same number.
+INTERFACE = 1
 
 
 class Part:
@@ -159,20 +162,35 @@ def named(name: str) -> Engine:
 
 
 def fastest() -> Engine:
-    """The native engine where it is installed."""
+    """The native engine where it is installed. ExoError, if one is there that belongs to another harness."""
     try:
         native()
-    except ExoError:
+    except NotInstalledError:
         return "fmpy"
     return "native"
 
 
+class NotInstalledError(ExoError):
+    """An engine that is not there."""
+
+
 def native() -> Any:
-    """The module of the native engine. ExoError says how to get it."""
+    """The module of the native engine. ExoError says how to get it, or one that belongs to this harness."""
     try:
-        return import_module("exo_native")
-    except ImportError:
-        raise ExoError("engine native is not installed: `cargo xtask native` builds and installs it") from None
+        module = import_module("exo_native")
+    except ModuleNotFoundError:
+        raise NotInstalledError("engine native is not installed: `cargo xtask native` builds and installs it") from None
+    except ImportError as error:
+        told = " ".join(str(error).split())
+        raise ExoError(f"engine native cannot be loaded: {told}; `cargo xtask native` builds and installs it") from None
+    # A wheel without an interface is older than the check.
+    found = getattr(module, "__version__", "unknown"), getattr(module, "INTERFACE", 0)
+    if found != (__version__, INTERFACE):
+        raise ExoError(
+            f"engine native: the wheel exo-native {found[0]}, interface {found[1]}, is installed; "
+            f"expected {__version__}, interface {INTERFACE}: `cargo xtask native` builds and installs it"
+        )
+    return module
 
 
 def _run(all_work: list[_Work], first: int, steps: int, step: float, pace: Pace | None) -> None:

@@ -13,19 +13,21 @@ others record no more than these. What a row sets is
 | `profile.tau_h.1.amplitude` | a number of a profile's first term |
 
 With `branch_at` the rows have their first seconds in common: they run once, the FMUs' states are kept, and each row
-goes on from there. A row then sets what may be set during a run: tunable parameters and unwired inputs.
+goes on from there. A row then sets what may be set during a run: tunable parameters and unwired inputs. `branch_at` is
+a multiple of the step.
 """
 
 from collections.abc import Iterable, Mapping, Sequence
 from contextlib import ExitStack, suppress
 from dataclasses import dataclass, replace
-from math import isfinite
+from math import ceil, floor, isclose, isfinite
 from pathlib import Path
 from types import TracebackType
 from typing import Any, Self
 
 import numpy as np
 import pyarrow as pa
+from pydantic import ValidationError
 
 from exo import derived, preflight, selection, trial
 from exo import loop as loops
@@ -344,8 +346,10 @@ def _segment(of: Plan, key: str) -> tuple[str, int, str, Segment]:
 def _changed(segment: Segment, field: str, value: Value, key: str) -> Segment:
     try:
         return Segment.model_validate({**segment.model_dump(), field: value})
-    except ValueError as error:
-        raise ScenarioError(f"{key} = {value}: {str(error).splitlines()[-1].strip()}") from error
+    except ValidationError as error:
+        problem = error.errors(include_url=False)[0]
+        said = str(problem["ctx"]["error"]) if problem["type"] == "value_error" else problem["msg"]
+        raise ScenarioError(f"{key} = {value}: {said}") from error
 
 
 class _Look:
@@ -448,7 +452,13 @@ class _Runs:
 
 
 def _ticks(at: float, of: Plan) -> int:
-    ticks = round(at / of.step) if isfinite(at) else 0
+    exact = at / of.step if isfinite(at) else 0.0
+    ticks = round(exact)
     if not 0 < ticks < of.steps:
         raise ScenarioError(f"branch_at = {at:g} s: expected a time within the run, {of.step:g} to {of.duration:g} s")
+    if not isclose(exact, ticks, rel_tol=1e-9):
+        below, above = (f"{n * of.step:.12g}" for n in (floor(exact), ceil(exact)))
+        raise ScenarioError(
+            f"branch_at = {at:.12g} s: expected a multiple of the step {of.step:.12g} s, as {below} or {above} s"
+        )
     return ticks

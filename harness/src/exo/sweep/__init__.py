@@ -5,8 +5,9 @@
 | `study` | the study as data: axes, samples, figures |
 | `store` | the folder: parts, resumption, the table |
 | `chunks` | which rows go to a worker at once |
-| `work` | what a worker does |
+| `work` | what a process does with rows |
 | `local`, `cluster` | processes of this machine, and Dask |
+| `apart` | a process beside each of the cluster's workers |
 | `pictures` | maps, scatters, histograms, fronts |
 """
 
@@ -22,12 +23,11 @@ from exo.errors import ExoError
 from exo.fmu import find_fmu_dir
 from exo.loop import Engine
 from exo.runs import FAILURE, Batch
-from exo.sweep import cluster, local, pictures
+from exo.sweep import cluster, local
 from exo.sweep.chunks import Queue
-from exo.sweep.local import Kept
 from exo.sweep.store import ROW, SECONDS, TABLE, Store
 from exo.sweep.study import Study, built_in, check_figures, load
-from exo.sweep.work import Task
+from exo.sweep.work import Kept, Task
 
 __all__ = ["Progress", "Study", "Swept", "built_in", "load", "sweep"]
 
@@ -117,12 +117,17 @@ def sweep(
             failed += sum(one.outcome.error is not None for one in done)
             tell(Progress(finished, len(rows), len(before), failed))
         table = store.finish()
+        # Not above: the workers would wait for it.
+        from exo.sweep import pictures  # noqa: PLC0415
+
         drawn, wrong = [], []
+        reasons = table[FAILURE].drop_null()
         for figure in study.figures:
             try:
                 drawn.append(pictures.draw(figure, study, table, store.folder))
             except ExoError as error:
-                wrong.append(f"{error}; the runs are in {store.folder / TABLE}")
+                why = f"; {len(reasons)} of {table.num_rows} failed, the first: {reasons[0]}" if len(reasons) else ""
+                wrong.append(f"{error}{why}; the runs are in {store.folder / TABLE}")
     if wrong:
         raise ExoError("\n".join(wrong))
     return Swept(store.folder, table, tuple(drawn))

@@ -23,13 +23,16 @@ class Queue:
         #: Rows that were under way when a process ended: one of them ended it.
         self._suspects: list[int] = []
         self._ended: dict[int, int] = {}
+        #: Whether the chunk that was taken last is one of those.
+        self._alone = False
 
     def __len__(self) -> int:
         return len(self._waiting) + len(self._suspects)
 
     def next(self) -> Chunk:
         """The next rows, none when none are left."""
-        if self._suspects:
+        self._alone = bool(self._suspects)
+        if self._alone:
             i = self._suspects.pop()
             return [(i, self._rows[i])]
         size = 1
@@ -48,10 +51,13 @@ class Queue:
         """Rows that have not begun, or that were under way when the cluster was lost."""
         self._waiting += [i for i, _ in reversed(chunk)]
 
-    @property
-    def suspects(self) -> bool:
-        """Whether the next row may end its process: it is to run while no other does."""
-        return bool(self._suspects)
+    def admits(self, running: int, *, most: int) -> bool:
+        """Whether the next chunk may begin beside `running` others, of which there may be `most`.
+
+        A row that may end its process runs alone.
+        """
+        self._alone = self._alone and running > 0
+        return len(self) > 0 and running < (1 if self._suspects or self._alone else most)
 
     def give_back(self, chunks: Sequence[Chunk], *, attempts: int = 2) -> list[int]:
         """Rows that were under way when a process ended wait again, each alone. Returns those that have ended one

@@ -3,22 +3,25 @@
 import multiprocessing
 import os
 import signal
+import sys
 import threading
 from collections.abc import Iterator
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
+from contextlib import contextmanager
+from types import ModuleType
 from typing import Any
 
 from exo import extraction
+from exo.errors import ExoError
 from exo.runs import Outcome
 from exo.sweep.chunks import Queue
 from exo.sweep.store import Done
-from exo.sweep.work import Chunk, Task, run_chunk
+from exo.sweep.work import ENDED, Chunk, Kept, Task, run_chunk
 
-Kept = tuple[list[str], list[Done]]
 #: How long a worker that was told to end may take (s).
 GONE_S = 2.0
-ENDED = "its process was ended twice; expected an FMU that returns"
+MAIN = "__main__"
 
 
 def processors() -> int:
@@ -27,7 +30,7 @@ def processors() -> int:
 
 
 def run(task: Task, queue: Queue, *, workers: int) -> Iterator[Kept]:
-    """Runs all rows of the queue; yields what each chunk has come to."""
+    """Runs all rows of the queue; yields what each chunk has come to. ExoError, if no worker begins."""
     names: list[str] = []
     while len(queue):
         with _pool(workers) as pool:
@@ -49,8 +52,33 @@ def run(task: Task, queue: Queue, *, workers: int) -> Iterator[Kept]:
 
 
 def _pool(workers: int) -> ProcessPoolExecutor:
+    """A pool whose workers have begun."""
     # A forked process would have this one's threads' locks.
-    return ProcessPoolExecutor(workers, mp_context=multiprocessing.get_context("spawn"), initializer=_begin)
+    pool = ProcessPoolExecutor(workers, mp_context=multiprocessing.get_context("spawn"), initializer=_begin)
+    try:
+        # What is sent first makes the processes.
+        with _without_main():
+            begun = pool.submit(processors)
+        begun.result()
+    except (BrokenProcessPool, OSError) as error:
+        pool.shutdown(wait=False, cancel_futures=True)
+        told = " ".join(str(error).split())
+        raise ExoError(f"--workers {workers}: no process begins: {told}; expected fewer, or more memory") from error
+    except BaseException:
+        _end(pool)
+        raise
+    return pool
+
+
+@contextmanager
+def _without_main() -> Iterator[None]:
+    """Hides the script that calls: a new process would run it again, with its sweep, where no `__main__` guards it."""
+    script = sys.modules[MAIN]
+    sys.modules[MAIN] = ModuleType(MAIN)
+    try:
+        yield
+    finally:
+        sys.modules[MAIN] = script
 
 
 def _begin() -> None:
@@ -72,7 +100,7 @@ def _until_broken(
 ) -> Iterator[Kept]:
     while len(queue) or running:
         # One more than work: no worker waits for this process.
-        while len(queue) and len(running) < (1 if queue.suspects else workers + 1):
+        while queue.admits(len(running), most=workers + 1):
             chunk = queue.next()
             try:
                 running[pool.submit(run_chunk, task, chunk)] = chunk

@@ -23,6 +23,8 @@ mpl.use("Agg")
 SIZE, DPI = (7.5, 5.0), 120
 #: Points up to which each is drawn large.
 FEW = 500
+#: Of many points, in which each has a median.
+PARTS = 25
 #: Of a map that says no or yes.
 YES_OR_NO = ("#dceefa", "#f8c98b")
 
@@ -147,8 +149,30 @@ def _scatter(axes: Any, study: Study, figure: Figure, columns: dict[str, Array])
         norm = colors.LogNorm() if "color" in figure.log else None
         drawn = axes.scatter(x, y, c=columns[figure.color], s=size, norm=norm, cmap="viridis")
         axes.figure.colorbar(drawn, ax=axes, label=figure.color_label or _label(study, figure.color))
+    if figure.kind == "scatter" and len(x) > FEW:
+        # On white, so that it is seen before any color.
+        at, middle = _medians(x, y)
+        for color, width in (("white", 5), ("black", 2)):
+            label = "median" if color == "black" else None
+            axes.plot(at, middle, color=color, linewidth=width, label=label)
+        axes.legend(loc="best", fontsize=8)
     if figure.limit is not None:
         axes.axhline(figure.limit, color=VERMILLION)
+        if figure.contour_label:
+            axes.annotate(
+                figure.contour_label,
+                (0.01, figure.limit),
+                xycoords=("axes fraction", "data"),
+                xytext=(0, 4),
+                textcoords="offset points",
+                color=VERMILLION,
+            )
+
+
+def _medians(x: Array, y: Array) -> tuple[Array, Array]:
+    """Medians of y, and of x, in parts of as many points each, by ascending x."""
+    parts = np.array_split(np.argsort(x, kind="stable"), PARTS)
+    return np.array([np.median(x[part]) for part in parts]), np.array([np.median(y[part]) for part in parts])
 
 
 def _histogram(axes: Any, _study: Study, figure: Figure, columns: dict[str, Array]) -> None:

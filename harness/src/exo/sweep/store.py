@@ -163,7 +163,14 @@ class Store:
         sink = pa.BufferOutputStream()
         pq.write_table(pa.table(columns), sink)
         first = min(one.row for one in done)
-        folder.write_file(self.folder / PARTS / f"{first:08}.parquet", sink.getvalue().to_pybytes())
+        self._write(self.folder / PARTS / f"{first:08}.parquet", sink)
+
+    def _write(self, path: Path, sink: pa.BufferOutputStream) -> None:
+        try:
+            folder.write_file(path, sink.getvalue().to_pybytes())
+        except OSError as error:
+            said = error.strerror or error
+            raise ExoError(f"{path}: {said}; what was finished is kept, and the same command goes on") from error
 
     def table(self) -> pa.Table:
         """All rows that have run, in order, with what they set."""
@@ -188,7 +195,7 @@ class Store:
             raise ExoError(f"{self.folder}: {table.num_rows} rows of {len(self._rows)}; expected every row once")
         sink = pa.BufferOutputStream()
         pq.write_table(table, sink, compression="zstd")
-        folder.write_file(self.folder / TABLE, sink.getvalue().to_pybytes())
+        self._write(self.folder / TABLE, sink)
         with (self.folder / TABLE).open("rb+") as file:
             os.fsync(file.fileno())  # before the parts go
         for path in self._parts():

@@ -1,6 +1,5 @@
-"""What a worker does, on this machine and on a cluster: it opens the scenario once, then runs chunks of rows."""
+"""What a process does with rows: it opens the scenario once, then runs chunks of them."""
 
-import tempfile
 import threading
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -13,6 +12,9 @@ from exo.scenario import Scenario, Value
 from exo.sweep.store import Done
 
 Chunk = Sequence[tuple[int, Mapping[str, Value]]]
+#: Names of the numbers, and rows that have run.
+Kept = tuple[list[str], list[Done]]
+ENDED = "its process was ended twice; expected an FMU that returns"
 
 
 @dataclass(frozen=True)
@@ -26,7 +28,7 @@ class Task:
     metrics: tuple[str, ...]
     branch_at: float | None
     engine: Engine | None
-    #: Where the archives lie; None: they come with the chunk.
+    #: Where the archives lie; None: they come with each chunk.
     fmu_dir: Path | None
 
 
@@ -34,9 +36,9 @@ class Task:
 _OPEN = threading.local()
 
 
-def run_chunk(task: Task, chunk: Chunk, archives: Mapping[str, bytes] | None = None) -> tuple[list[str], list[Done]]:
-    """Runs rows; returns the numbers' names and what became of each row."""
-    runs = _opened(task, archives or {})
+def run_chunk(task: Task, chunk: Chunk) -> Kept:
+    """Runs rows; returns the numbers' names and what became of each row. ExoError, if the scenario does not open."""
+    runs = _opened(task)
     done = []
     for number, row in chunk:
         began = perf_counter()
@@ -45,24 +47,17 @@ def run_chunk(task: Task, chunk: Chunk, archives: Mapping[str, bytes] | None = N
     return runs.names, done
 
 
-def _opened(task: Task, archives: Mapping[str, bytes]) -> Batch:
+def _opened(task: Task) -> Batch:
     if getattr(_OPEN, "id", None) == task.id:
         return _OPEN.runs  # type: ignore[no-any-return]
     close()
-    folder = task.fmu_dir
-    if folder is None:
-        place = tempfile.TemporaryDirectory(prefix="exo-sweep-")
-        folder = Path(place.name)
-        for name, data in archives.items():
-            (folder / name).write_bytes(data)
-        _OPEN.place = place
     runs = Batch(
         task.scenario,
         cases=task.cases,
         metrics=task.metrics,
         branch_at=task.branch_at,
         engine=task.engine,
-        fmu_dir=folder,
+        fmu_dir=task.fmu_dir,
     )
     _OPEN.runs, _OPEN.id = runs.__enter__(), task.id
     return runs
@@ -73,7 +68,3 @@ def close() -> None:
     if getattr(_OPEN, "id", None) is not None:
         _OPEN.id = None
         _OPEN.runs.__exit__(None, None, None)
-    place = getattr(_OPEN, "place", None)
-    if place is not None:
-        place.cleanup()
-        _OPEN.place = None
