@@ -208,6 +208,21 @@ class Coupled:
         if instance.archive.variable(name).causality == "parameter":
             self._parameters[key] = instance.values([name])[name]
 
+    def feed(self, key: str, first: int, values: NDArray[np.float64]) -> None:
+        """Gives an input that a profile feeds other values for the steps from number `first` on."""
+        component, name = key.split(".", 1)
+        kind, column = self._parts[component].input(name)
+        self._parts[component].u[kind][first : first + len(values), column] = _of_kind(values, kind)
+
+    def shown(self, key: str, point: int) -> float:
+        """An output at communication point `point`: 0 is after initialization, k + 1 after step k."""
+        component, name = key.split(".", 1)
+        part = self._parts[component]
+        for kind, refs in part.outputs.items():
+            if name in refs.names:
+                return float(part.y[kind][point, refs.names.index(name)])
+        raise NotKeptError(key)
+
     def terminate(self) -> None:
         """fmi2Terminate of all."""
         for part in self._parts.values():

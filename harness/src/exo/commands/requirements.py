@@ -19,9 +19,7 @@ def list_requirements(
         Path | None, typer.Argument(help="A file of requirements; without it those of the project.")
     ] = None,
     *,
-    results: Annotated[Path, typer.Option(help="Folder of results whose margins are shown.")] = Path(
-        "results"
-    ),
+    results: Annotated[Path, typer.Option(help="Folder of results whose margins are shown.")] = Path("results"),
     as_json: AsJson = False,
 ) -> None:
     """Lists requirements, formulas and the smallest margins in the results; exit code 1 when one is broken."""
