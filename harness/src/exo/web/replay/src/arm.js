@@ -40,7 +40,7 @@ export function armDrawing({ geometry, scales, look }) {
     const side = geometry.bases.length > 1 ? ["left ", "right "] : [""];
     arms.forEach((one, i) => {
       const { hand, shoulder, elbow, pad, nominal } = seen[i];
-      if (nominal && nominal.distance > 0.02) found.push([`nominal hand, ${metres(nominal.distance)} away`, nominal.at, "ghost"]);
+      if (nominal && nominal.distance > 0.03) found.push([`nominal hand, ${metres(nominal.distance)} away`, nominal.at, "ghost"]);
       found.push([`${side[i]}handle`, hand, "part"], ["shoulder", shoulder, "part"], ["elbow", elbow, "part"], ["suction pad", pad, "part"]);
     });
     if (load) found.push([`payload ${geometry.payload.mass} kg`, load.mesh.position.toArray(), "name low"]);
@@ -130,9 +130,11 @@ function labelling(parent) {
       made[i] ??= parent.appendChild(html("span"));
       const label = made[i];
       place.set(...at).project(camera);
-      const half = 3.3 * text.length + 4;
+      const half = (kind === "ghost" ? 3.7 : 3.3) * text.length + 5;
       const low = kind.endsWith("low");
-      const x = ((place.x + 1) / 2) * width + (low ? 0 : half + 20);
+      const centre = ((place.x + 1) / 2) * width;
+      const right = centre + half + 20;
+      const x = low ? centre : right + half < width ? right : centre - half - 20;
       const y = ((1 - place.y) / 2) * height + (low ? 26 : 0);
       const free = taken.every((other) => Math.abs(other.x - x) > other.half + half || Math.abs(other.y - y) > 15);
       const wanted = named || !kind.startsWith("part");

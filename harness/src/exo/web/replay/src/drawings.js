@@ -2,7 +2,6 @@
 
 import { FORCES, scalesOf } from "./arrows.js";
 import { armDrawing, cameraOf } from "./arm.js";
-import { newtons } from "./format.js";
 import { renderer } from "./renderer.js";
 import { sideDrawing } from "./side.js";
 import { testbedDrawing } from "./testbed.js";
@@ -14,7 +13,7 @@ export const has3d = () => renderer() !== null;
 export function shared({ geometry, usual, extent }) {
   if (geometry.kind === "testbed") {
     const most = Math.max(usual("tau_h"), usual("tau_a"), usual("tau_d"));
-    return { extent, most, forces: { note: `longest arrow ${newtons(most)}; larger forces are cut off` }, look: null };
+    return { extent, most, forces: { longest: most }, look: null };
   }
   // The largest arrows are those of landings, and cut off: see `clipped`.
   const found = Object.entries(FORCES).map(([name, { of }]) => [name, usual(...of)]);

@@ -3,13 +3,14 @@
 /** A force with its unit: three digits at most. */
 export function newtons(value) {
   const size = Math.abs(value);
-  return `${value.toFixed(size < 99.95 ? 1 : 0).replace("-", "−")} N`;
+  // A number and its unit stay on one line.
+  return `${value.toFixed(size < 99.95 ? 1 : 0).replace("-", "−")}\u00a0N`;
 }
 
 /** A length with its unit. */
 export function metres(value) {
   const size = Math.abs(value);
-  return `${value.toFixed(size < 0.995 ? 3 : size < 99.5 ? 1 : 0).replace("-", "−")} m`;
+  return `${value.toFixed(size < 0.995 ? 3 : size < 99.5 ? 1 : 0).replace("-", "−")}\u00a0m`;
 }
 
 /** The 1, 2 or 5 times a power of ten at or above a value. */

@@ -6,7 +6,7 @@ import { followTheme, styled } from "./look.js";
 import { orbit } from "./orbit.js";
 import { points } from "./kinematics.js";
 import { liveStatus } from "./status.js";
-import { view } from "./view.js";
+import { scaleNote, view } from "./view.js";
 
 /** What a hand, a table and a payload come to where nobody says more (N). */
 const USUAL = { f_h: 20, f_e: 500, tension: 200, tau_h: 5, tau_a: 12.5, tau_e: 20 };
@@ -29,8 +29,9 @@ export function live(element, geometry, options = {}) {
   const place = html("div", { class: "er-views" });
   const cameraBar = html("div", { class: "er-bar" });
   const note = geometry.kind === "testbed" || has3d() ? null : html("p", { class: "er-note" }, "This browser offers no WebGL, so the arm is drawn from the side and not in three dimensions.");
+  const scales = html("p", { class: "er-scale er-soft" });
   const news = html("div", { class: "er-live", "aria-live": "polite" });
-  const root = html("div", { class: "exo-replay", role: "group", "aria-label": `Live: ${title.textContent}` }, note, cameraBar, place, news);
+  const root = html("div", { class: "exo-replay", role: "group", "aria-label": `Live: ${title.textContent}` }, note, cameraBar, place, scales, news);
   element.append(root);
   const status = liveStatus();
   let [shown, camera, detach, common, colours, state] = [null, null, null, null, null, null];
@@ -51,6 +52,7 @@ export function live(element, geometry, options = {}) {
     shown = view({ chooser: title, geometry: next, drawing, forces: common.forces });
     detach = camera?.attach(drawing.element);
     place.append(shown.element);
+    say(scales, scaleNote(next, common.forces));
     if (colours) drawing.paint(colours);
     resize();
   }

@@ -7,7 +7,7 @@ import { followTheme, styled } from "./look.js";
 import { orbit } from "./orbit.js";
 import { player } from "./player.js";
 import { recordedStatus } from "./status.js";
-import { view } from "./view.js";
+import { scaleNote, view } from "./view.js";
 
 const NONE = "";
 
@@ -40,9 +40,10 @@ export function mount(element, scene, bus, options = {}) {
   const place = html("div", { class: `er-views ${testbed ? "" : "er-beside"}` });
   const cameraBar = html("div", { class: "er-group" });
   const bar = html("div", { class: "er-bar" }, transport.watch, cameraBar);
+  const scales = html("p", { class: "er-scale er-soft" });
   const news = html("div", { class: "er-live", "aria-live": "polite" });
   const note = testbed || has3d() ? null : html("p", { class: "er-note" }, "This browser offers no WebGL, so the arm is drawn from the side and not in three dimensions.");
-  const root = html("div", { class: "exo-replay", tabindex: 0, role: "group", "aria-label": `Replay: ${scene.title}` }, note, bar, place, transport.element, news);
+  const root = html("div", { class: "exo-replay", tabindex: 0, role: "group", "aria-label": `Replay: ${scene.title}` }, note, bar, place, scales, transport.element, news);
   element.append(root);
 
   function select(row) {
@@ -80,6 +81,7 @@ export function mount(element, scene, bus, options = {}) {
     });
     if (chosen.length === 1 && ids.length > 1) bar.append((more ??= second()));
     else more?.remove();
+    say(scales, scaleNote(geometry, common.forces));
     transport.marks(cases);
     if (colours) views.forEach((one) => one.drawing.paint(colours));
     resize();

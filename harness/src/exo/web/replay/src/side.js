@@ -6,7 +6,7 @@ import { metres } from "./format.js";
 import { middleOfPads, points } from "./kinematics.js";
 import { top } from "./stage.js";
 
-const [LEFT, RIGHT, LOW, HIGH] = [-0.2, 0.95, -0.72, 0.5];
+const [LEFT, RIGHT, LOW, HIGH] = [-0.2, 0.95, -0.92, 0.5];
 
 /** The drawing, with the same interface as that in three dimensions. */
 export function sideDrawing({ geometry, scales }) {

@@ -78,8 +78,8 @@ export function words(status, geometry, held) {
     case "rests":
       return ["at rest", `The ${thing} is at the ${status.surface}; the hand does not pull.`];
     case "carries":
-      return ["carries", "The arm carries the payload."];
+      return ["carries", `The ${geometry.bases.length > 1 ? "arms carry" : "arm carries"} the payload.`];
     default:
-      return ["free", `The ${thing} is free.`];
+      return ["free", `The ${thing} moves freely.`];
   }
 }

@@ -4,7 +4,7 @@ import { metres, newtons, nice } from "./format.js";
 import { put, say, show, svg } from "./dom.js";
 import { rail } from "./rail.js";
 
-const HEIGHT = 208;
+const HEIGHT = 206;
 const FLOOR = 158;
 const BLOCK = { width: 74, height: 46 };
 const TOP = FLOOR - 8 - BLOCK.height;
@@ -25,7 +25,7 @@ export function testbedDrawing({ geometry, extent, most }) {
     put(root, { viewBox: `0 0 ${width} ${HEIGHT}`, width, height: HEIGHT });
     const narrow = width < 520;
     // A block's place is its right face: what hangs on its left needs room.
-    const scale = rail({ extent: range, wall: geometry.wall, left: BLOCK.width + 52, right: width - (narrow ? 12 : 56) });
+    const scale = rail({ extent: range, wall: geometry.wall, left: BLOCK.width + 52, right: width - (narrow ? 12 : 24) });
     const longest = narrow ? 58 : 92;
     const perNewton = longest / strongest;
     parts = { scale, perNewton, longest, width, ...moving(geometry) };
@@ -71,7 +71,7 @@ function background(scale, geometry, width) {
     layers.push(svg("line", { class: "er-tick", x1: x, x2: x, y1: FLOOR, y2: FLOOR + 6 }));
     layers.push(svg("text", { class: "er-small", x, y: FLOOR + 22, "text-anchor": "middle" }, text));
   }
-  layers.push(svg("text", { class: "er-small", x: width - 4, y: FLOOR + 22, "text-anchor": "end" }, "q [m]"));
+  layers.push(svg("text", { class: "er-small", x: width - 4, y: FLOOR - 6, "text-anchor": "end" }, "q [m]"));
   if (geometry.wall !== null) {
     const x = scale.at(geometry.wall);
     layers.push(svg("rect", { class: "er-beyond", x, y: 34, width: Math.max(0, scale.right - x), height: FLOOR - 34 }));
@@ -115,8 +115,8 @@ function arrow(name) {
 }
 
 /** An arrow from `x` along the rail; `label` stands behind its tail or above it. */
-function point({ element, line, head, text }, { x, y, force, parts, label, anchor, labelX, labelY }) {
-  const reach = Math.sign(force) * Math.min(Math.abs(force) * parts.perNewton, parts.longest);
+function point({ element, line, head, text }, { x, y, force, parts, label, anchor, labelX, labelY, most = parts.longest }) {
+  const reach = Math.sign(force) * Math.min(Math.abs(force) * parts.perNewton, force < 0 ? most : parts.longest);
   const seen = Math.abs(reach) > 0.8;
   show(element, seen);
   if (!seen) return;
@@ -140,18 +140,19 @@ function move(parts, geometry, state, status) {
   // The arrow ends at a hand that pushes, and begins at one that pulls.
   const hand = x - BLOCK.width - 48;
   const push = Math.max(0, Math.min((state.tau_h ?? 0) * parts.perNewton, parts.longest));
+  const pull = Math.min(0, Math.max((state.tau_h ?? 0) * parts.perNewton, 10 - hand));
   point(arrows.hand, {
-    x: hand - push, y: TOP + 26, force: state.tau_h ?? 0, parts, label: `hand ${(state.tau_h ?? 0) < 0 ? "pulls" : "pushes"} ${newtons(Math.abs(state.tau_h ?? 0))}`,
+    x: hand - push, most: -pull, y: TOP + 26, force: state.tau_h ?? 0, parts, label: `hand ${(state.tau_h ?? 0) < 0 ? "pulls" : "pushes"} ${newtons(Math.abs(state.tau_h ?? 0))}`,
     labelX: Math.max(4, hand - 8), labelY: TOP - 8, anchor: "start",
   });
   const middle = x - BLOCK.width / 2;
   point(arrows.drive, {
     x: middle, y: TOP + BLOCK.height - 3, force: state.tau_a ?? 0, parts, label: `drive ${newtons(Math.abs(state.tau_a ?? 0))}`,
-    labelX: Math.min(middle + 4, scale.right - 70), labelY: FLOOR + 38, anchor: "middle",
+    labelX: Math.min(middle + 4, scale.right - 70), labelY: FLOOR + 40, anchor: "middle",
   });
   point(arrows.wall, {
     x, y: TOP + 10, force: state.tau_e ?? 0, parts, label: `wall ${newtons(Math.abs(state.tau_e ?? 0))}`,
-    labelX: x + 18, labelY: TOP + 14, anchor: "start",
+    labelX: x + 18, labelY: TOP - 10, anchor: "start",
   });
   point(arrows.unseen, {
     x: middle, y: TOP - 4, force: state.tau_d ?? 0, parts, label: `unseen ${newtons(Math.abs(state.tau_d ?? 0))}`,

@@ -61,21 +61,20 @@ function entries(geometry, values, forces) {
   if (geometry.kind === "testbed") {
     return [
       ...[["robot", "mass"], ["nominal", "nominal mass: the law's model"]].map(([color, text]) => entry(color, text, null, "ball")),
-      html("li", {}, forces.note),
     ];
   }
   return [
     entry("nominal", "nominal hand: the law's model", null, "ball"),
     ...Object.keys(forces).map((name) => entry(name, FORCES[name].name, values[name])),
-    html("li", { class: "er-scale" }, scaleNote(geometry, forces)),
   ];
 }
 
 /** How long the arrows are, and what is drawn otherwise than it is. */
-function scaleNote(geometry, forces) {
-  const scales = Object.entries(forces).map(([name, newton]) => `${FORCES[name].short} ${newtons((0.1 * newton) / LENGTH).replace(".0 ", " ")}`);
+export function scaleNote(geometry, forces) {
+  if (geometry.kind === "testbed") return `The longest arrow stands for ${newtons(forces.longest)}; larger forces are cut off.`;
+  const scales = Object.entries(forces).map(([name, newton]) => `${FORCES[name].short} ${newtons((0.1 * newton) / LENGTH).replace(".0\u00a0", "\u00a0")}`);
   const plate = geometry.payload ? " The payload is a point in the model; drawn is a steel plate of its mass." : "";
-  return `0.1 m of an arrow: ${scales.join(", ")}; very large forces are cut off. Squares of the grid: 0.1 m.${plate}`;
+  return `0.1 m of an arrow stands for: ${scales.join(", ")}; very large forces are cut off. Squares of the grid: 0.1 m.${plate}`;
 }
 
 function entry(color, text, value, shape = "") {
