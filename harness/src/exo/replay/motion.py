@@ -20,6 +20,9 @@ ANGLE_TOLERANCE, PLACE_TOLERANCE = 3e-4, 2e-4
 #: Of forces: a share of the largest one, and the least (N).
 FORCE_SHARE, FORCE_TOLERANCE = 0.004, 0.05
 
+#: No picture has room for more (m, N, rad).
+FARTHEST = 1e6
+
 #: Columns of a scene by name, with their resolution.
 Columns = dict[str, tuple[NDArray[np.float64], float]]
 
@@ -47,6 +50,11 @@ class Motion:
     def law(self) -> str:
         """The name of the law, where a law drives the plant."""
         return self.run.choices.get(f"{self.controllers[0]}.law", "")
+
+    @property
+    def is_drawable(self) -> bool:
+        """Whether every value is a number and none is beyond all measure, as in a run that has blown up."""
+        return all(bool(np.all(np.abs(values) < FARTHEST)) for values, _ in self.columns.values())
 
     def packed(self, *, coarser: float) -> dict[str, Any]:
         """The instants that are kept and each column there."""

@@ -1,4 +1,4 @@
-"""Columns as whole numbers: JSON that compresses to two or three bytes a value, and the same number in every browser."""
+"""Columns as whole numbers: JSON that compresses to two or three bytes a value, the same in every browser."""
 
 from typing import Any
 
@@ -17,7 +17,9 @@ def pack(values: NDArray[Any], *, unit: float) -> dict[str, Any]:
     """
     scaled = np.rint(np.asarray(values, dtype=np.float64) / unit)
     if not np.all(np.abs(scaled) < LARGEST):  # also false for NaN
-        raise ValueError(f"a column with resolution {unit} has a value that is not finite or not below {LARGEST * unit}")
+        raise ValueError(
+            f"a column with resolution {unit} has a value that is not finite or not below {LARGEST * unit}"
+        )
     whole = scaled.astype(np.int64)
     return {"unit": unit, "steps": np.diff(whole, prepend=0).tolist()}
 
@@ -28,5 +30,5 @@ def unpack(column: dict[str, Any]) -> NDArray[np.float64]:
 
 
 def switches(values: NDArray[np.bool_], time: NDArray[np.float64]) -> list[float]:
-    """When a Boolean changes (s); it begins as false, so that a change at the first instant says that it is true there."""
+    """When a Boolean changes (s). It begins as false: a change at the first instant says that it is true there."""
     return [float(t) for t in time[np.flatnonzero(np.diff(values.astype(np.int8), prepend=0))]]

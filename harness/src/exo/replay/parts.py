@@ -1,4 +1,4 @@
-"""Which component of a run is the plant, which one the law, told by their variables: a scenario may name them anyhow."""
+"""Which component of a run is the plant, which one the law: told by their variables, whatever their names."""
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass

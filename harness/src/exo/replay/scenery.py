@@ -30,6 +30,7 @@ SPEEDS = (1.0, 2.0, 4.0, 8.0, 16.0, 32.0)
 
 def scene(experiment: Experiment, cases: Iterable[str] | None = None) -> dict[str, Any] | None:
     """The scene of these cases, or of all, in the scenario's order; None where no case has a plant that is drawn.
+    A case whose signals have blown up is left out.
 
     ScenarioError for a case that has not run.
     """
@@ -41,7 +42,7 @@ def scene(experiment: Experiment, cases: Iterable[str] | None = None) -> dict[st
     motions = {
         name: motion
         for name in wanted
-        if (motion := _motion(experiment.recordings[name], experiment.plans[name])) is not None
+        if (motion := _motion(experiment.recordings[name], experiment.plans[name])) is not None and motion.is_drawable
     }
     if not motions:
         return None
@@ -96,14 +97,16 @@ def _payload(motion: Motion) -> dict[str, Any]:
     # Before a grip it lies where the pad grips it; after the release where the pad has left it.
     places = []
     for tick in [*changes, len(run.time) - 1]:
-        at = [[round(float(run[f"{name}.{side}p_pad[{k}]"][tick]), 4) for k in (1, 2, 3)] for side in motion.plant.sides]
+        at = [
+            [round(float(run[f"{name}.{side}p_pad[{k}]"][tick]), 4) for k in (1, 2, 3)] for side in motion.plant.sides
+        ]
         places.append([round(float(np.mean([pad[k] for pad in at])), 4) for k in range(3)])
     return {"attached": packing.switches(motion.attached, run.time), "places": places[:-1] or places}
 
 
 def _pair(experiment: Experiment, laws: Mapping[str, str]) -> list[str]:
-    """The cases to begin with: one of the standard law, best that of the paper's figure, and the one of the proposed law
-    that differs from it by the least; else the first and the last case."""
+    """The cases to begin with: one of the standard law, best that of the paper's figure, and that of the proposed law
+    which differs from it by the least; else the first and the last case."""
     cases = list(laws)
     printed = {name for metric in experiment.scenario.metrics for name in metric.paper}
     standard = [name for name in cases if laws[name] == STANDARD]

@@ -44,9 +44,7 @@ def episodes(
         # One that comes to the surface while the hand pulls has not stuck before.
         begin = max(first - 1, contact)
         pressed = max(contact, _after_last(pulls, begin))
-        found.append(
-            Episode(float(time[begin]), float(time[end]), bool(not near[end]), float(time[pressed]), surface)
-        )
+        found.append(Episode(float(time[begin]), float(time[end]), bool(not near[end]), float(time[pressed]), surface))
     return found
 
 

@@ -1,6 +1,7 @@
 """Which instants of a run are kept, so that straight lines between them show what happened."""
 
 from collections.abc import Iterable, Sequence
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -49,15 +50,13 @@ def _instants(
     return np.array(sorted(found), dtype=np.intp)
 
 
-def straightened(
-    time: NDArray[np.float64], scaled: NDArray[np.float64], must: NDArray[np.bool_]
-) -> NDArray[np.bool_]:
+def straightened(time: NDArray[np.float64], scaled: NDArray[np.float64], must: NDArray[np.bool_]) -> NDArray[np.bool_]:
     """Ramer, Douglas and Peucker's choice for all columns at once: which rows stay, so that no value is farther than 1
     from the straight line between the rows that stay."""
     stay = must.copy()
     stay[[0, -1]] = True
     ends = np.flatnonzero(stay)
-    open_stretches = list(zip(ends[:-1], ends[1:], strict=True))
+    open_stretches = list(pairwise(ends))
     while open_stretches:
         begin, end = open_stretches.pop()
         if end - begin < 2:
