@@ -364,7 +364,7 @@ def test_nothing_is_wider_than_the_screen(
     page.page.wait_for_timeout(200)
     assert page.page.evaluate("document.documentElement.scrollWidth") <= width
     outside = page.page.evaluate(
-        """[...document.querySelectorAll(".er-svg text, .er-name")].filter((one) => {
+        """[...document.querySelectorAll(".er-svg text, .er-tag")].filter((one) => {
             const [a, b] = [one.getBoundingClientRect(), one.closest(".er-draw").getBoundingClientRect()];
             return a.width && (a.left < b.left - 1 || a.right > b.right + 1);
         }).map((one) => one.textContent)"""

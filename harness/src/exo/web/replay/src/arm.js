@@ -1,7 +1,7 @@
 // The arm in three dimensions, on a canvas of its own, with names as text over it.
 
 import { PerspectiveCamera, Scene, Vector3 } from "three";
-import { LENGTH, clipped, forcesOf, nominalHand } from "./arrows.js";
+import { LENGTH, clipped, forcesOf, nominalHand, tailAt } from "./arrows.js";
 import { html, say, show } from "./dom.js";
 import { metres } from "./format.js";
 import { middleOfPads, points } from "./kinematics.js";
@@ -49,9 +49,6 @@ export function armDrawing({ geometry, scales, look }) {
     return found;
   }
 
-  /** Under the plate that is drawn as the payload. */
-  const below = ([x, y, z]) => [x, y, z - (geometry.payload?.size[2] ?? 0)];
-
   return {
     element,
     resize(width, height, density) {
@@ -81,8 +78,11 @@ export function armDrawing({ geometry, scales, look }) {
         one.ghost.group.visible = nominal !== null;
         if (nominal) one.ghost.set(hand, nominal, arm.q[0]);
         for (const [name, where, force] of forcesOf(arm)) {
-          const from = where === "handle" ? hand : name === "payload" ? below(at.pad) : beside(at.pad, arm.q[0], name === "contact" ? 0.065 : -0.065);
-          one.arrows[name]?.set(from, clipped(force.map((value) => (value * LENGTH) / scales[name])));
+          const vector = clipped(force.map((value) => (value * LENGTH) / scales[name]));
+          // Beside the pad an arrow is not hidden in its rod; a pull of the payload ends on it.
+          const pad = beside(at.pad, arm.q[0], name === "contact" ? 0.065 : -0.065);
+          const from = where === "handle" ? tailAt(hand, vector) : name === "payload" ? pad.map((value, k) => value - vector[k]) : pad;
+          one.arrows[name]?.set(from, vector);
         }
         return { ...at, hand, nominal };
       });
@@ -115,7 +115,7 @@ export function cameraOf() {
   return camera;
 }
 
-/** A point beside the pad, where an arrow is not hidden in its rod. */
+/** A point beside the pad (m). */
 function beside([x, y, z], yaw, by) {
   return [x - by * Math.sin(yaw), y + by * Math.cos(yaw), z];
 }
@@ -143,7 +143,7 @@ function labelling(parent) {
       if (!shown) return;
       taken.push({ x, y, half });
       say(label, text);
-      label.className = `er-name ${kind}`;
+      label.className = `er-tag ${kind.split(" ").map((one) => `er-tag-${one}`).join(" ")}`;
       label.style.transform = `translate(${Math.min(Math.max(x, half), width - half).toFixed(1)}px, ${y.toFixed(1)}px) translate(-50%, -50%)`;
     });
     for (let i = texts.length; i < made.length; i++) show(made[i], false);

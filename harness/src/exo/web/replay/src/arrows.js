@@ -34,6 +34,11 @@ export function forcesOf(arm) {
   ];
 }
 
+/** Where an arrow of this vector begins at the handle: a hand that presses down is seen above it, not within the arm. */
+export function tailAt(hand, vector) {
+  return vector[2] < -0.5 * Math.hypot(...vector) ? hand.map((value, k) => value - vector[k]) : hand;
+}
+
 /** Where the nominal hand is drawn: its place, or as far towards it as fits; and its distance from the hand (m). */
 export function nominalHand(hand, p_n) {
   const away = p_n.map((value, k) => value - hand[k]);

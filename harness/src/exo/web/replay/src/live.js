@@ -5,6 +5,7 @@ import { html, say } from "./dom.js";
 import { followTheme, styled } from "./look.js";
 import { orbit } from "./orbit.js";
 import { points } from "./kinematics.js";
+import { onRestored } from "./renderer.js";
 import { liveStatus } from "./status.js";
 import { scaleNote, view } from "./view.js";
 
@@ -76,6 +77,7 @@ export function live(element, geometry, options = {}) {
     shown?.drawing.paint(palette);
     queue();
   });
+  const unrestore = onRestored(queue);
   const observer = new ResizeObserver(resize);
   let shape = geometry;
   build(geometry);
@@ -97,6 +99,7 @@ export function live(element, geometry, options = {}) {
       if (queued) cancelAnimationFrame(queued);
       observer.disconnect();
       unfollow();
+      unrestore();
       detach?.();
       shown.dispose();
       root.remove();

@@ -6,6 +6,7 @@ import { html, say } from "./dom.js";
 import { followTheme, styled } from "./look.js";
 import { orbit } from "./orbit.js";
 import { player } from "./player.js";
+import { onRestored } from "./renderer.js";
 import { recordedStatus } from "./status.js";
 import { scaleNote, view } from "./view.js";
 
@@ -131,6 +132,7 @@ export function mount(element, scene, bus, options = {}) {
     views.forEach((one) => one.drawing.paint(palette));
     queue();
   });
+  const unrestore = onRestored(queue);
   const sizes = new ResizeObserver(resize);
   let waiting = options.autoplay === true;
   const seen = new IntersectionObserver(([entry]) => {
@@ -167,6 +169,7 @@ export function mount(element, scene, bus, options = {}) {
       transport.dispose();
       stop();
       unfollow();
+      unrestore();
       sizes.disconnect();
       seen.disconnect();
       views.forEach((one) => one.release());

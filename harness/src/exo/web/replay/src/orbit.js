@@ -15,8 +15,8 @@ const PRESETS = {
 /** Controls for the views' canvases, with buttons; `changed` is called when the camera has moved. */
 export function orbit({ look, geometry, changed }) {
   const wide = geometry.bases.length > 1;
-  const target = new Vector3(0.32, 0, geometry.table === null ? -0.22 : (geometry.table - 0.2) / 2);
-  const distance = wide ? 2.8 : 2.3;
+  const target = new Vector3(0.32, 0, geometry.table === null ? -0.22 : (geometry.table - 0.14) / 2);
+  const distance = wide ? 2.85 : 2.4;
   const attached = [];
   const buttons = Object.keys(PRESETS).map((name) => html("button", { type: "button", "aria-pressed": "false" }, name));
   const names = html("button", { type: "button", "aria-pressed": String(look.named) }, "Names");

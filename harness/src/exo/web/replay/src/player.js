@@ -107,8 +107,8 @@ export function player({ bus, story, step = 0.1 }) {
           const y = row * (STRIP.row + STRIP.gap) + 1;
           const stuck = one.episodes.flat().filter((each) => each.to - each.from > 0.05);
           return [
-            svg("rect", { class: "track", x: 0, y, width: 1000, height: STRIP.row }),
-            ...stuck.map((each) => svg("rect", { class: "stick", x: at(each.from), y, width: Math.max(2, at(each.to) - at(each.from)), height: STRIP.row })),
+            svg("rect", { class: "er-track", x: 0, y, width: 1000, height: STRIP.row }),
+            ...stuck.map((each) => svg("rect", { class: "er-stuck-time", x: at(each.from), y, width: Math.max(2, at(each.to) - at(each.from)), height: STRIP.row })),
           ];
         }),
       );

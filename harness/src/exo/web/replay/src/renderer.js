@@ -3,6 +3,7 @@
 import { WebGLRenderer, PCFShadowMap, SRGBColorSpace } from "three";
 
 let shared;
+const redraws = new Set();
 
 /** The page's renderer, or null where the browser has no WebGL. */
 export function renderer() {
@@ -17,10 +18,18 @@ export function renderer() {
     shared.shadowMap.type = PCFShadowMap;
     shared.setClearColor(0x000000, 0);
     shared.setScissorTest(true);
+    // A browser may take the context away and give it back.
+    canvas.addEventListener("webglcontextrestored", () => redraws.forEach((redraw) => redraw()));
   } catch {
     shared = null;
   }
   return shared;
+}
+
+/** Calls `redraw` where all pictures must be drawn again; answers what ends that. */
+export function onRestored(redraw) {
+  redraws.add(redraw);
+  return () => redraws.delete(redraw);
 }
 
 /** Draws a scene into a view's own canvas, whose size in device pixels is that of the picture. */

@@ -1,6 +1,6 @@
 // The arm from the side, in its own vertical plane, where a browser has no WebGL: distance from the yaw axis, and height.
 
-import { LENGTH, clipped, forcesOf, nominalHand } from "./arrows.js";
+import { LENGTH, clipped, forcesOf, nominalHand, tailAt } from "./arrows.js";
 import { put, say, show, svg } from "./dom.js";
 import { metres } from "./format.js";
 import { middleOfPads, points } from "./kinematics.js";
@@ -76,10 +76,10 @@ export function sideDrawing({ geometry, scales }) {
           say(one.ghostName, nominal.distance > 0.02 ? `nominal hand, ${metres(nominal.distance)} away` : "");
         }
         for (const [name, where, [fx, fy, fz]] of forcesOf(arm)) {
-          const from = where === "handle" ? hand : [pad[0] + (name === "contact" ? 0.04 : -0.04), pad[1]];
           const factor = LENGTH / scales[name];
-          const force = clipped([(fx * c + fy * s) * factor, fz * factor]);
-          one.arrows[name]?.set(at(...from), at(from[0] + force[0], from[1] + force[1]));
+          const [ahead, , up] = clipped([(fx * c + fy * s) * factor, 0, fz * factor]);
+          const [r, , z] = where === "handle" ? tailAt([hand[0], 0, hand[1]], [ahead, 0, up]) : [pad[0] + (name === "contact" ? 0.04 : -0.04), 0, pad[1] - (name === "payload" ? up : 0)];
+          one.arrows[name]?.set(at(r, z), at(r + ahead, z + up));
         }
         return { hand: found.handle, pad: found.pad, nominal: nominal?.at, away: nominal?.distance };
       });

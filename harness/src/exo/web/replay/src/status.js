@@ -3,7 +3,7 @@
 /** How long "lets go" is shown (s of the run). */
 const SHOWN = 4;
 /** Shorter times of sticking are not worth a word (s). */
-const LEAST = 0.02;
+const LEAST = 0.06;
 /** Hand forces below this are none (N). */
 const NO_FORCE = 0.05;
 

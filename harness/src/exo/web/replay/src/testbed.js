@@ -165,7 +165,7 @@ function badge(parts, status, x) {
   const words = { sticks: `sticks ${status.lasted.toFixed(1)} s`, letGo: `lets go after ${status.lasted.toFixed(2)} s` }[status.kind] ?? "";
   show(parts.verdict, words !== "");
   const half = 4.9 * words.length;
-  put(parts.verdict, { class: `er-verdict ${status.kind}`, x: Math.min(Math.max(x - BLOCK.width / 2, half), x - half + 8 > half ? x - half : half).toFixed(1) });
+  put(parts.verdict, { class: `er-verdict er-${status.kind}`, x: Math.min(Math.max(x - BLOCK.width / 2, half), x - half + 8 > half ? x - half : half).toFixed(1) });
   say(parts.verdict, words);
 }
 

@@ -28,11 +28,11 @@ export function view({ chooser, geometry, drawing, forces = {} }) {
       const [word, text] = words(now, geometry, state.attached);
       drawing.draw(state, now);
       say(badge, word);
-      put(badge, { class: `er-badge ${now.kind}` });
-      const stuck = now.lasted > 0.02;
+      put(badge, { class: `er-badge er-${now.kind}` });
+      const stuck = now.kind === "sticks" || now.lasted > 0;
       show(count, stuck);
       if (stuck) say(count, `${now.kind === "sticks" ? "stuck" : "was stuck"} ${now.lasted.toFixed(2)} s`);
-      put(count, { class: `er-count ${now.kind}` });
+      put(count, { class: `er-count er-${now.kind}` });
       say(sentence, text + behind(geometry, state, now));
       if (geometry.kind !== "testbed") forcesTold(values, state);
       if (!quiet) put(draw, { "aria-label": `At ${state.time.toFixed(1)} s: ${sentence.textContent}` });
@@ -78,7 +78,7 @@ export function scaleNote(geometry, forces) {
 }
 
 function entry(color, text, value, shape = "") {
-  return html("li", {}, html("span", { class: `er-swatch ${shape}`, style: `background:var(--${color})` }), text, value);
+  return html("li", {}, html("span", { class: `er-swatch ${shape && `er-${shape}`}`, style: `background:var(--${color})` }), text, value);
 }
 
 function forcesTold(values, state) {
