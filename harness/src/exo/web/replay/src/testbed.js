@@ -18,7 +18,7 @@ export function testbedDrawing({ geometry, extent, most }) {
   let width = 0;
   let range = extent;
   let strongest = most;
-  let drawn = { q: 0 };
+  let last = null;
 
   function build() {
     box.replaceChildren();
@@ -30,6 +30,7 @@ export function testbedDrawing({ geometry, extent, most }) {
     const perNewton = longest / strongest;
     parts = { scale, perNewton, longest, width, ...moving(geometry) };
     box.append(...background(scale, geometry, width), ...parts.layers);
+    if (last) move(parts, geometry, ...last);
   }
 
   return {
@@ -47,13 +48,13 @@ export function testbedDrawing({ geometry, extent, most }) {
         strongest = nice(Math.max(force, strongest));
         if (width) build();
       }
+      last = [state, status];
       if (parts) move(parts, geometry, state, status);
-      drawn = { q: state.q, q_n: state.q_n };
     },
     paint() {},
     render() {},
     /** What is drawn where (m). */
-    pose: () => ({ ...drawn }),
+    pose: () => ({ q: last?.[0].q, q_n: last?.[0].q_n }),
     dispose: () => root.remove(),
   };
 }
