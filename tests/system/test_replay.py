@@ -16,6 +16,7 @@ from exo import loop, metrics, replay, scenario
 from exo.errors import ScenarioError
 from exo.experiment import Experiment
 from exo.replay import packing, thinning
+from exo.replay.laws import ABOUT
 from exo.replay.scenery import MOST_BYTES, compressed_size
 from exo.replay.sticking import episodes
 
@@ -290,3 +291,10 @@ def test_the_bundle_is_made_of_the_sources_beside_it() -> None:
     first = (here / "replay.js").read_text(encoding="ascii")[:200]
     assert f"sources {digest.hexdigest()};" in first, "src/ has changed: `npm ci && npm run build` in exo/web/replay"
     assert "MIT" in (here / "three.LICENSE.txt").read_text(encoding="utf-8")
+
+
+def test_each_law_is_told_in_the_words_of_the_readme() -> None:
+    text = (Path(__file__).resolve().parents[2] / "README.md").read_text(encoding="utf-8")
+    table = text.partition("<!-- laws:")[2].partition("<!-- end -->")[0]
+    rows = [[cell.strip() for cell in line.split("|")] for line in table.splitlines() if line.startswith("| ")][1:]
+    assert {row[2].strip("`"): row[3] for row in rows} == ABOUT

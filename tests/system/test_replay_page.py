@@ -259,6 +259,7 @@ def test_the_wall_story_can_be_read_off(wall: Experiment, opened: Opening) -> No
     assert "The hand pulls away, but the mass sticks to the wall: 9.75 s." in text
     assert "The nominal mass is 42 m behind the wall, so the drive pushes with 12.5 N." in text
     assert "hand pulls 5.0 N" in text
+    assert "admittance filter alone, no reaction on the nominal; sticks to walls" in text
     assert "was stuck 0.33 s" in text
     page.at(37.4)
     assert "lets go after 17.04 s" in page.text()

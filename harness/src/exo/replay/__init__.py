@@ -11,7 +11,7 @@ A scene has one case or more, of which the page shows two at a time:
 | `range` | first and last instant (s) |
 | `pair` | the cases to begin with: the standard law and the proposed one, where there are both |
 | `story` | what is worth watching: `from`, `to` (s) and the `speed` at which that takes 20 s at most; or null |
-| `cases` | by id: `label`, `law`, `geometry` and what moves |
+| `cases` | by id: `label`, `law` and what it is (`about`), `geometry` and what moves |
 
 What moves is thinned out: between two instants that are kept every column is straight, up to a tolerance (`thinning`).
 Every column is a list of whole numbers, `start` and differences, times `unit` (`packing`). Poses are joint angles: the

@@ -12,6 +12,7 @@ from exo.experiment import Experiment
 from exo.plan import Plan
 from exo.recording import Recording
 from exo.replay import packing, shape
+from exo.replay.laws import ABOUT
 from exo.replay.motion import Motion
 from exo.replay.parts import plant
 from exo.replay.sticking import Episode
@@ -25,7 +26,7 @@ STANDARD, PROPOSED = "standard", ("passive_bounded", "passive", "passive_applied
 WATCHED, WORTH_WATCHING = 20.0, 1.0
 #: Before the pressing and after the release (s).
 LEAD, TAIL = 1.5, 2.5
-SPEEDS = (1.0, 2.0, 4.0, 8.0, 16.0, 32.0)
+SPEEDS = (1.0, 2.0, 4.0, 8.0, 16.0)
 
 
 def scene(experiment: Experiment, cases: Iterable[str] | None = None) -> dict[str, Any] | None:
@@ -73,6 +74,7 @@ def _case(motion: Motion, label: str) -> dict[str, Any]:
         case = {
             "label": label,
             "law": motion.law,
+            "about": ABOUT.get(motion.law, ""),
             "geometry": shape.of(motion.plant, motion.run.parameters),
             "frames": motion.packed(coarser=coarser),
             "sticking": [[one.as_json() for one in side] for side in motion.sticking],

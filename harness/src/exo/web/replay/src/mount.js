@@ -75,7 +75,7 @@ export function mount(element, scene, bus, options = {}) {
     }
     views = cases.map((one, row) => {
       const drawing = drawingOf(one.geometry, common);
-      const made = view({ chooser: select(row), geometry: one.geometry, drawing, forces: common.forces });
+      const made = view({ chooser: select(row), about: one.about, geometry: one.geometry, drawing, forces: common.forces });
       const detach = camera?.attach(drawing.element);
       place.append(made.element);
       return { ...made, case: one, release: () => (detach?.(), made.dispose()) };

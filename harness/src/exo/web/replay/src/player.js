@@ -3,7 +3,7 @@
 import { html, put, say, svg } from "./dom.js";
 import { still } from "./look.js";
 
-const SPEEDS = [0.25, 0.5, 1, 2, 4, 8];
+const SPEEDS = [0.25, 0.5, 1, 2, 4, 8, 16];
 export const SOURCE = "replay";
 const STRIP = { row: 7, gap: 3 };
 
@@ -48,7 +48,7 @@ export function player({ bus, story, step = 0.1 }) {
     put(play, { "aria-label": frame ? "Pause" : "Play" });
   }
   function watched() {
-    speeds.value = String(SPEEDS.includes(story.speed) ? story.speed : 8);
+    speeds.value = String(SPEEDS.includes(story.speed) ? story.speed : 1);
     bus.set(story.from, SOURCE);
     start(story.to);
   }

@@ -6,15 +6,15 @@ import { newtons } from "./format.js";
 import { points } from "./kinematics.js";
 import { words } from "./status.js";
 
-/** A view; `chooser` is what stands in its head: a select, or a name. */
-export function view({ chooser, geometry, drawing, forces = {} }) {
+/** A view; `chooser` is what stands in its head: a select, or a name; `about` says what law it is. */
+export function view({ chooser, about = "", geometry, drawing, forces = {} }) {
   const badge = html("span", { class: "er-badge" });
   const count = html("span", { class: "er-count" });
   const sentence = html("p", { class: "er-say" });
   const values = Object.fromEntries(Object.keys(forces).map((name) => [name, html("b")]));
   const legend = html("ul", { class: "er-legend" }, ...entries(geometry, values, forces));
   const draw = html("div", { class: "er-draw", role: "img" }, drawing.element);
-  const element = html("section", { class: "er-view" }, html("div", { class: "er-head-line" }, chooser, badge, count), draw, sentence, legend);
+  const element = html("section", { class: "er-view" }, html("div", { class: "er-head-line" }, chooser, badge, count), about ? html("p", { class: "er-about" }, about) : null, draw, sentence, legend);
   let told = "";
 
   return {
