@@ -72,7 +72,7 @@ function background(scale, geometry, width) {
     layers.push(svg("line", { class: "er-tick", x1: x, x2: x, y1: FLOOR, y2: FLOOR + 6 }));
     layers.push(svg("text", { class: "er-small", x, y: FLOOR + 22, "text-anchor": "middle" }, text));
   }
-  layers.push(svg("text", { class: "er-small", x: width - 4, y: FLOOR - 6, "text-anchor": "end" }, "q [m]"));
+  layers.push(svg("text", { class: "er-small", x: width - 4, y: HEIGHT - 8, "text-anchor": "end" }, "q [m]"));
   if (geometry.wall !== null) {
     const x = scale.at(geometry.wall);
     layers.push(svg("rect", { class: "er-beyond", x, y: 34, width: Math.max(0, scale.right - x), height: FLOOR - 34 }));
