@@ -7,7 +7,7 @@ from typing import Any
 
 import jsonschema
 
-from exo import earlier, folder, junit, manifest, plots, recording
+from exo import earlier, folder, junit, manifest, plots, recording, scenes
 from exo.experiment import Experiment
 from exo.kept import EVERYTHING, Kept
 
@@ -49,6 +49,7 @@ def write(*, experiment: Experiment, out: Path, kept: Kept = EVERYTHING) -> Path
             plots.draw(figure=figure, recordings=experiment.recordings, path=fresh / f"{figure.id}.png")
             data = plots.data(figure=figure, recordings=experiment.recordings)
             recording.write(data, fresh / "figures" / figure.id, csv=kept.csv)
+        scenes.keep(experiment=experiment, fresh=fresh)
         (fresh / junit.NAME).write_bytes(junit.text([junit.suite(experiment)]))
         manifest.write(experiment=experiment, folder=fresh)
     return target
