@@ -41,6 +41,7 @@ from exo.kept import ALL, NONE
 from exo.presets import Preset
 from exo.references import replay
 from exo.references import write as references
+from exo.report.command import report as write_report
 from exo.scenario import Scenario
 from exo.screen import console, sentences
 from exo.systems import closed, container, form, ssp
@@ -190,6 +191,9 @@ def reproduce(
         path = report.write(out=out, scenarios=names)
         console.print(f"report: {path}", markup=False)
     raise typer.Exit(0 if passed else 1)
+
+
+app.command("report")(write_report)
 
 
 @app.command("sweep")

@@ -1,8 +1,8 @@
 """`report.html`: one self-contained page that one explores; it works offline from a double click.
 
-What stands in it as text, and is there with scripts off as well: what was shown, the paper's numbers beside ours, every
-verdict, of every experiment what it is, its cases and versions. Its figures come as signals, thinned and packed, and are
-drawn when their section is opened.
+What stands in it as text is there with scripts off as well: what was shown, the paper's numbers beside ours, every
+verdict, and of every experiment what it is, its cases and versions. Its figures come as signals, thinned and packed,
+and are drawn when their section is opened.
 
 | file | idea |
 |---|---|

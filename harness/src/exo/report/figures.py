@@ -8,6 +8,7 @@ The head of what is packed:
     figures   in the scenario's order; one that is no time plot is a picture: `still` is the number of its bytes
 """
 
+import math
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -27,11 +28,12 @@ from exo.scenario import Bands, Figure
 
 #: Case and column.
 Key = tuple[str, str]
+NOT_BOUND = (-math.inf, math.inf)
 
 
 @dataclass
 class Signal:
-    """Ticks and values at them, shape (n,): tick k is at k·step (s). The windows (s) are those of panels."""
+    """Ticks and values at them, shape (n,): tick k is at k·step (s). The windows are what panels show."""
 
     ticks: NDArray[np.int64]
     values: NDArray[np.float64]
@@ -42,7 +44,7 @@ class Signal:
     @property
     def time(self) -> NDArray[np.float64]:
         """Instants of the ticks (s)."""
-        return self.ticks * self.step
+        return np.asarray(self.ticks * self.step, dtype=np.float64)
 
     def thinned(self) -> "Signal":
         """With the points alone that show it."""
@@ -96,10 +98,10 @@ def _signals(folder: Path, figures: Iterable[Figure]) -> dict[Key, Signal]:
             ticks = np.round(instants / step).astype(np.int64)
             found[key] = Signal(ticks, values[there], step, printed(said.get(b"unit", b"").decode()))
         for panel in figure.panels:
-            if panel.x_range:
-                for curve in (*panel.curves, *((panel.bands,) if panel.bands else ())):
-                    if (curve.case, curve.column) in found:
-                        found[curve.case, curve.column].windows.append(panel.x_range)
+            window = thin.Window(*(panel.x_range or NOT_BOUND), *(panel.y_range or NOT_BOUND))
+            for curve in panel.curves:
+                if (curve.case, curve.column) in found:
+                    found[curve.case, curve.column].windows.append(window)
     return found
 
 
@@ -114,7 +116,8 @@ def _panels(figure: Figure, numbers: dict[Key, int]) -> Iterator[dict[str, Any]]
     for i, panel in enumerate(figure.panels):
         curves = [
             {"s": numbers[curve.case, curve.column], "label": curve.label or curve.column, **_look(found[i, j])}
-            for j, curve in enumerate(panel.curves)
+            # What has gaps lies over what has none.
+            for j, curve in sorted(enumerate(panel.curves), key=lambda each: found[i, each[0]].rank)
             if (curve.case, curve.column) in numbers
         ]
         yield {
@@ -131,7 +134,7 @@ def _panels(figure: Figure, numbers: dict[Key, int]) -> Iterator[dict[str, Any]]
 
 def _look(look: Look) -> dict[str, Any]:
     dash = DASHES[look.rank % len(DASHES)]
-    return {"color": look.color, "dash": [] if dash == SOLID else list(dash[1]), "rank": look.rank}
+    return {"color": look.color, "dash": [] if dash == SOLID else list(dash[1])}
 
 
 def _bands(bands: Bands, numbers: dict[Key, int]) -> dict[str, Any] | None:

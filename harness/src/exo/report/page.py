@@ -8,12 +8,13 @@ from importlib.resources.abc import Traversable
 from pathlib import Path
 
 import jinja2
+from markupsafe import Markup
 
 from exo import __version__, scenes
 from exo.folder import write_file
 from exo.report import figures, packed, story
 from exo.report.section import VERDICTS, Section
-from exo.report.verdicts import difference
+from exo.report.verdicts import Row, difference
 
 #: In the order in which the page has them; a script uses what stands before it.
 STYLES = ("colours.css", "page.css", "first.css", "verdicts.css", "experiments.css", "plots.css", "print.css")
@@ -50,12 +51,13 @@ def render(*, sections: Sequence[Section], against: Path | None) -> str:
         lstrip_blocks=True,
         undefined=jinja2.StrictUndefined,
     )
-    environment.filters["difference"] = difference
+    environment.filters |= {"difference": difference, "marked": _marked}
     drawn = {one.id: scenes.read(one.folder) for one in sections}
     mine = [home / "web" / "timebus.js", *(home / "report" / "web" / name for name in SCRIPTS)]
     return environment.get_template("page.html.jinja").render(
         sections=sections,
         groups=_groups(sections),
+        printed=_printed(sections),
         counts={verdict: sum(one.counts[verdict] for one in sections) for verdict in VERDICTS},
         changed=sum(one.changed for one in sections),
         compared=any(one.before for one in sections),
@@ -73,6 +75,12 @@ def render(*, sections: Sequence[Section], against: Path | None) -> str:
     )
 
 
+def _printed(sections: Sequence[Section]) -> list[tuple[Section, Row, Row | None]]:
+    """Numbers that the paper prints, those first that are judged by it, each with that verdict."""
+    found = [(one, row, one.beside(row)) for one in sections for row in one.rows if row.paper]
+    return sorted(found, key=lambda each: each[2] is None)
+
+
 def _groups(sections: Sequence[Section]) -> list[tuple[str, list[Section]]]:
     """What the paper prints first; then what is of the testbed, and of the arm."""
     names = ("The paper's figures and numbers", "More on the testbed, one axis", "More on the arm, three joints")
@@ -81,7 +89,17 @@ def _groups(sections: Sequence[Section]) -> list[tuple[str, list[Section]]]:
         printed = any(row.paper for row in one.rows) or any(figure.label for figure in one.scenario.figures)
         arm = any("arm" in part.archive.lower() for part in one.scenario.components.values())
         groups[names[0] if printed else names[2] if arm else names[1]].append(one)
+    groups[names[0]].sort(key=lambda one: not any(figure.label for figure in one.scenario.figures))
     return [(name, members) for name, members in groups.items() if members]
+
+
+def _marked(text: str) -> Markup:
+    """A text whose `names` stand between backticks."""
+    parts = text.split("`")
+    # An odd number of backticks names nothing.
+    return Markup("").join(
+        Markup("<code>{}</code>").format(part) if i % 2 and len(parts) % 2 else part for i, part in enumerate(parts)
+    )
 
 
 def _styles(home: Traversable) -> list[Traversable]:
@@ -94,8 +112,10 @@ def _text(file: Traversable) -> str:
 
 def _libraries(home: Traversable, *, replay: bool) -> list[str]:
     """What the scripts need of others, the replay's only where a scene is."""
-    uplot = home / "web" / "uplot"
+    uplot, player = home / "web" / "uplot", home / "web" / "replay"
     found = [_library(uplot / "uPlot.iife.min.js", uplot / "LICENSE")]
+    if replay:
+        found.append(_library(player / "replay.js", player / "three.LICENSE.txt"))
     return found
 
 

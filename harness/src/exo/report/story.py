@@ -77,7 +77,7 @@ def _drawn(section: Section, figure: Figure, pull: float, delay: dict[str, float
         # Beyond the picture's edge a line would say that the mass stands there.
         inside = np.flatnonzero(q < low)
         end = int(inside[0]) + 1 if len(inside) else len(q)
-        points = [(x(t[k]), y(q[k])) for k in thin.thin(t[:end], q[:end], ())]
+        points = [(x(t[k]), y(q[k])) for k in thin.thin(t[:end], q[:end])]
         lines[law] = "M" + "L".join(f"{a:.1f} {b:.1f}" for a, b in points)
     return Story(
         delay=delay,

@@ -4,34 +4,52 @@ MinMaxLTTB takes of each bin of ticks the extremes, and of these the points that
 points a signal needs depends on how lively it is: their number is doubled until the line lies close.
 """
 
+import math
 from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from tsdownsample import MinMaxLTTBDownsampler
 
 #: How far the line through the points may lie from the signal, as a share of the signal's range.
-CLOSE = 1.0 / 500.0
-FEWEST, MOST = 128, 2048
+CLOSE = 1.0 / 1000.0
+FEWEST, MOST = 128, 4096
 
-Window = tuple[float, float]
+Array = NDArray[np.float64]
 
 
-def thin(time: NDArray[np.float64], values: NDArray[np.float64], windows: Iterable[Window]) -> NDArray[np.intp]:
-    """Indices of the points to keep, ascending: of all, and more of each window (s) that a panel shows.
+@dataclass(frozen=True)
+class Window:
+    """What a panel shows of a signal: from `left` to `right` (s), and no more than from `low` to `high`."""
 
-    `time` (s) and `values`, shape (n,), are finite. First, last, smallest and largest point of each window are kept.
+    left: float = -math.inf
+    right: float = math.inf
+    low: float = -math.inf
+    high: float = math.inf
+
+
+def thin(time: Array, values: Array, windows: Iterable[Window] = ()) -> NDArray[np.intp]:
+    """Indices of the points to keep, ascending: of all, and more of what is seen in each window.
+
+    `time` (s) and `values`, shape (n,), are finite. First, last, smallest and largest point of all, and of each window,
+    are kept.
     """
     picked = [_close(time, values, 0)]
-    for left, right in windows:
-        first, last = np.searchsorted(time, [left, right])
-        inside = slice(int(first), min(int(last) + 1, len(time)))
-        if inside.stop - inside.start > 0 and inside != slice(0, len(time)):
-            picked.append(_close(time[inside], values[inside], inside.start))
+    for window in dict.fromkeys(windows):
+        first = int(np.searchsorted(time, window.left))
+        last = min(int(np.searchsorted(time, window.right, side="right")) + 1, len(time))
+        if last > first:
+            seen = values[first:last].clip(window.low, window.high)
+            picked.append(_close(time[first:last], seen, first))
     return np.unique(np.concatenate(picked))
 
 
-def _close(time: NDArray[np.float64], values: NDArray[np.float64], start: int) -> NDArray[np.intp]:
+def _close(time: Array, values: Array, start: int) -> NDArray[np.intp]:
+    # Not when `exo` starts.
+    from tsdownsample import MinMaxLTTBDownsampler  # noqa: PLC0415
+
+    thinner: Any = MinMaxLTTBDownsampler()  # type: ignore[no-untyped-call]
     ends = [0, len(values) - 1, int(values.argmin()), int(values.argmax())]
     allowed = CLOSE * float(np.ptp(values))
     count, found = FEWEST, np.unique(ends)
@@ -39,7 +57,7 @@ def _close(time: NDArray[np.float64], values: NDArray[np.float64], start: int) -
         if len(values) <= count:
             found = np.arange(len(values))
             break
-        chosen = MinMaxLTTBDownsampler().downsample(np.ascontiguousarray(values), n_out=count)
+        chosen = thinner.downsample(np.ascontiguousarray(values), n_out=count)
         found = np.unique(np.concatenate([chosen.astype(np.intp), ends]))
         if np.abs(np.interp(time, time[found], values[found]) - values).max() <= allowed:
             break

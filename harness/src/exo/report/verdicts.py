@@ -85,7 +85,8 @@ def difference(row: Row) -> str:
     """How far the number is off the paper's, as a share of that; empty where one of them is no number, or zero."""
     if row.paper is None or row.value is None or not row.paper.value:
         return ""
-    return f"{100.0 * (row.value / row.paper.value - 1.0):+.2f} %".replace("-", "−")
+    percent = round(100.0 * (row.value / row.paper.value - 1.0), 2)
+    return f"{percent:+.2f} %".replace("-", "−") if percent else "0 %"
 
 
 def _change(metric: dict[str, Any], old: dict[str, Any] | None) -> Change:

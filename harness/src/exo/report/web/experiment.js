@@ -47,7 +47,7 @@ function ownVerdicts(place, id) {
 /** Draws figures, time bar and replay; answers how they end. */
 function draw(stage, replayPlace, pack, scene) {
   const { head, body } = pack;
-  const bus = createTimeBus(head.range);
+  const bus = createTimeBus(scene && scene.range ? rangeOf(head, scene) : head.range);
   const signals = signalsOf(head, body);
   const plots = [];
   const urls = [];
@@ -94,6 +94,12 @@ function draw(stage, replayPlace, pack, scene) {
       stage.replaceChildren();
     },
   };
+}
+
+/** From the first to the last instant that plots or replay show (s). */
+function rangeOf(head, scene) {
+  const ranges = head.series.length ? [head.range, scene.range] : [scene.range];
+  return [Math.min(...ranges.map((one) => one[0])), Math.max(...ranges.map((one) => one[1]))];
 }
 
 function mountReplay(place, scene, bus) {

@@ -29,13 +29,14 @@ function drawBands(u, panel, signals) {
   if (!panel.bands) return;
   const { time, values } = signals[panel.bands.s];
   const { left, top, width, height } = u.bbox;
-  for (let k = 0; k < time.length; k++) {
-    // Between two points that are kept the value is that of the first one, as long as it is not another.
-    const from = Math.max(u.valToPos(time[k], "x", true), left);
-    const to = Math.min(u.valToPos(time[Math.min(k + 1, time.length - 1)], "x", true), left + width);
-    if (to <= from) continue;
-    u.ctx.fillStyle = bandColor(panel.bands, Math.round(values[k]));
-    u.ctx.fillRect(from, top, to - from + 1, height);
+  const end = time.length - 1;
+  const place = (t) => Math.round(Math.min(Math.max(u.valToPos(t, "x", true), left), left + width));
+  for (let first = 0, k = 1; k <= time.length; k++) {
+    if (k <= end && values[k] === values[first]) continue;
+    const from = place(time[first]);
+    u.ctx.fillStyle = bandColor(panel.bands, Math.round(values[first]));
+    u.ctx.fillRect(from, top, place(time[Math.min(k, end)]) - from, height);
+    first = k;
   }
 }
 
@@ -49,6 +50,7 @@ function drawMarks(u, panel) {
   ctx.lineWidth = scale;
   ctx.font = `${11 * scale}px system-ui, sans-serif`;
   ctx.textAlign = "right";
+  ctx.textBaseline = "alphabetic";
   for (const mark of panel.marks) {
     const y = u.valToPos(mark, "y", true);
     if (y < top || y > top + height) continue;
@@ -75,6 +77,7 @@ function optionsOf(panel, signals, view, size) {
   return {
     ...size,
     legend: { show: false },
+    padding: [8, 10, 0, 0],
     scales: {
       x: { time: false, range: () => [view.from, view.to] },
       y: { range: () => heights(panel, signals, view) },
@@ -92,7 +95,7 @@ function optionsOf(panel, signals, view, size) {
     ],
     axes: [
       { ...axis(), size: 24, space: 56 },
-      { ...axis(), size: 50, gap: 3, space: 28 },
+      { ...axis(), size: 46, gap: 3, space: 28 },
     ],
     cursor: {
       y: false,
