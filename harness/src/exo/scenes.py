@@ -1,6 +1,6 @@
 """What the replay draws of an experiment: kept beside its numbers when it runs, because its signals often are not.
 
-The replay is `exo.replay`: `scene(experiment)` answers what is drawn, for JSON, or None where there is nothing to draw.
+The replay is `exo.replay`: `scene(experiment, cases)` answers what is drawn, for JSON, or None where there is nothing.
 Its script defines `exoReplay.mount(element, scene, bus)`. A harness without it has plots alone.
 """
 
@@ -12,6 +12,7 @@ from typing import Any
 
 from exo.errors import ExoError
 from exo.experiment import Experiment
+from exo.scenario import Scenario
 
 NAME = "scene.json"
 
@@ -25,10 +26,17 @@ def keep(*, experiment: Experiment, fresh: Path) -> None:
     """Writes the experiment's scene into its new folder, where there is one to draw."""
     if not available():
         return
-    scene = import_module("exo.replay").scene(experiment)
+    scene = import_module("exo.replay").scene(experiment, chosen(experiment.scenario))
     if scene is not None:
         text = json.dumps(scene, ensure_ascii=False, separators=(",", ":"), allow_nan=False)
         (fresh / NAME).write_text(text + "\n", encoding="utf-8")
+
+
+def chosen(scenario: Scenario) -> list[str]:
+    """The cases to look at: those that figures show, in the scenario's order; without any the first two."""
+    ids = [case.id for case in scenario.cases]
+    shown = {name for figure in scenario.figures for name in figure.cases}
+    return [name for name in ids if name in shown] or ids[:2]
 
 
 def read(folder: Path) -> Any:

@@ -78,7 +78,7 @@ def row(name: str, metric: dict[str, Any], before: dict[str, Any] | None) -> Row
 
 def number(value: float | None) -> str:
     """Five digits; an undefined number says so."""
-    return "undefined" if value is None else f"{value:.5g}".replace("-", "−")
+    return "undefined" if value is None else f"{value:.5g}"
 
 
 def difference(row: Row) -> str:
@@ -86,7 +86,7 @@ def difference(row: Row) -> str:
     if row.paper is None or row.value is None or not row.paper.value:
         return ""
     percent = round(100.0 * (row.value / row.paper.value - 1.0), 2)
-    return f"{percent:+.2f} %".replace("-", "−") if percent else "0 %"
+    return f"{percent:+.2f} %" if percent else "0 %"
 
 
 def _change(metric: dict[str, Any], old: dict[str, Any] | None) -> Change:

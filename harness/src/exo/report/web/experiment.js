@@ -20,6 +20,9 @@ function startExperiment(element) {
       stage.textContent = `The signals cannot be drawn: ${error.message}. A newer browser may help; the pictures lie in the folder ${element.id}.`;
     }
     stage.removeAttribute("aria-busy");
+    // The page has grown since the link to here was followed.
+    if (element.dataset.linked) element.scrollIntoView();
+    delete element.dataset.linked;
   }
 
   element.addEventListener("toggle", () => {
@@ -89,6 +92,7 @@ function draw(stage, replayPlace, pack, scene) {
       themeListeners.delete(repaint);
       if (replay) replay.dispose();
       replayPlace.hidden = true;
+      replayPlace.replaceChildren();
       for (const one of plots) one.dispose();
       for (const url of urls) URL.revokeObjectURL(url);
       stage.replaceChildren();
@@ -102,9 +106,16 @@ function rangeOf(head, scene) {
   return [Math.min(...ranges.map((one) => one[0])), Math.max(...ranges.map((one) => one[1]))];
 }
 
+/** The replay, in step with the bus; where it cannot be drawn the plots stand without it. */
 function mountReplay(place, scene, bus) {
   place.hidden = false;
-  return exoReplay.mount(place, scene, bus);
+  try {
+    return exoReplay.mount(place, scene, bus);
+  } catch (error) {
+    console.error(error);
+    place.textContent = `The replay cannot be drawn: ${error.message}.`;
+    return null;
+  }
 }
 
 /** A figure's frame with its title and the paper's label. */

@@ -42,11 +42,12 @@ function createFigure(element, figure, signals, bus) {
         if (!hidden.delete(label)) hidden.add(label);
         paint();
       },
+      /** This name alone; all, where it is alone already. */
       showAlone(label) {
+        const others = drawn.flatMap(({ panel }) => panel.curves.map((curve) => curve.label)).filter((one) => one !== label);
+        const alone = !hidden.has(label) && others.every((one) => hidden.has(one));
         hidden.clear();
-        for (const { panel } of drawn) {
-          for (const curve of panel.curves) if (curve.label !== label) hidden.add(curve.label);
-        }
+        if (!alone) others.forEach((one) => hidden.add(one));
         paint();
       },
     };

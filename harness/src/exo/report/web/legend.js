@@ -30,7 +30,7 @@ function legendOf(panel, signals, figure) {
     button.type = "button";
     button.className = "curve";
     button.dataset.label = curve.label;
-    button.title = `${signals[curve.s].case}: ${signals[curve.s].column}. Click: hide or show. Double click: alone.`;
+    button.title = `${signals[curve.s].case}: ${signals[curve.s].column}. Click: hide or show. Double click: this one alone, and again all.`;
     const value = document.createElement("span");
     value.className = "value";
     button.append(lineOf(curve), document.createTextNode(curve.label), value);

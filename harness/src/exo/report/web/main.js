@@ -9,6 +9,7 @@ function openLinked() {
   const element = location.hash.length > 1 && document.getElementById(decodeURIComponent(location.hash.slice(1)));
   if (element && element.matches("details.experiment")) {
     element.hidden = false;
+    if (!element.open) element.dataset.linked = "yes";
     element.open = true;
     element.scrollIntoView();
   }

@@ -77,6 +77,7 @@ function optionsOf(panel, signals, view, size) {
   return {
     ...size,
     legend: { show: false },
+    pxAlign: 0,
     padding: [8, 10, 0, 0],
     scales: {
       x: { time: false, range: () => [view.from, view.to] },
