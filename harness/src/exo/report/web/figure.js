@@ -72,11 +72,17 @@ function createFigure(element, figure, signals, bus) {
       const [from, to] = range ? held(range, other.home) : other.home;
       Object.assign(other.view, { from, to, zoomed: Boolean(range) && (from > other.home[0] || to < other.home[1]) });
       other.element.classList.toggle("zoomed", other.view.zoomed);
+      mark(other);
       other.u.setScale("x", { min: from, max: to });
     }
   }
 
-  /** A range no shorter than a thousandth of the whole, and within it. */
+  /** What is seen, where styles and tests find it. */
+  function mark({ plot, view }) {
+    Object.assign(plot.dataset, { from: Number(view.from.toPrecision(9)), to: Number(view.to.toPrecision(9)) });
+  }
+
+  /** A range no shorter than a two-thousandth of the whole, and within it. */
   function held([from, to], home) {
     const whole = home[1] - home[0];
     const width = Math.min(Math.max(to - from, whole / 2000), whole);
@@ -91,6 +97,7 @@ function createFigure(element, figure, signals, bus) {
     };
     one.u = new uPlot(optionsOf(one.panel, signals, one.view, size()), joined(one.panel, signals), one.plot);
     one.sized = one.plot.clientWidth;
+    mark(one);
     steer(one, bus, (range) => zoom(one, range));
     one.resizing = new ResizeObserver(() => {
       if (one.plot.clientWidth === one.sized) return;

@@ -1,5 +1,4 @@
 // Starts the page.
-document.documentElement.classList.add("scripts");
 startTheme();
 startVerdicts();
 for (const element of document.querySelectorAll("details.experiment")) startExperiment(element);
