@@ -5,6 +5,7 @@ import re
 from pathlib import Path
 
 import numpy as np
+import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
 
@@ -225,6 +226,11 @@ def test_what_is_wrong_with_results_is_a_sentence(tmp_path: Path, fmu_dir: Path)
         if before is not None:
             file.write_bytes(before)
     assert exo("report", "--out", out).exit_code == 0
+    # As the harness has left it before its columns said what they are.
+    file = out / "short" / "figures" / "q.parquet"
+    table = pq.read_table(file)
+    pq.write_table(table.cast(pa.schema([pa.field(one.name, one.type) for one in table.schema])), file)
+    assert "does not say of which case and column it is" in refused("--out", out)
 
 
 def test_a_scenario_of_one_s_own_has_a_page(tmp_path: Path, fmu_dir: Path) -> None:
@@ -235,6 +241,22 @@ def test_a_scenario_of_one_s_own_has_a_page(tmp_path: Path, fmu_dir: Path) -> No
     page = Page(out / "report.html")
     assert "A <b>second</b> & `K`" in page.root.xpath('//details[@id="short"]/summary')[0].text_content()
     assert [facts["column"] for facts, _, _ in page.signals("short")] == ["plant.q"]
+
+
+def test_the_margins_of_requirements_have_a_filter_and_their_formula(tmp_path: Path, fmu_dir: Path) -> None:
+    path, out = tmp_path / "short.toml", tmp_path / "out"
+    path.write_text(
+        SHORT.replace('"moved"', '"requirement.goes.far"').replace(
+            "at_least = 0.1", 'at_least = 0.0, because = "eventually(q >= 0.1)"'
+        ),
+        encoding="utf-8",
+    )
+    exo("run", path, "--fmu-dir", fmu_dir, "--out", out)
+    exo("report", "--out", out)
+    page = Page(out / "report.html")
+    assert page.root.xpath('//button[@data-filter="requirement"]/i/text()') == ["1"]
+    assert len(page.root.xpath("//tr[@data-r]")) == 1
+    assert "Formula: eventually(q >= 0.1)" in page.rows("short")["requirement.goes.far/push"]["why"]
 
 
 def test_a_thinned_signal_keeps_its_peaks_and_its_line() -> None:

@@ -84,11 +84,17 @@ def _signals(folder: Path, figures: Iterable[Figure]) -> dict[Key, Signal]:
     for figure in figures:
         if figure.kind != "panels":
             continue
-        table = _table(folder / "figures" / f"{figure.id}.parquet")
+        path = folder / "figures" / f"{figure.id}.parquet"
+        table = _table(path)
         time = table.column(0).to_numpy()
         for described, column in zip(list(table.schema)[1:], table.columns[1:], strict=True):
             said = described.metadata or {}
-            key = (said.get(b"case", b"").decode(), said.get(b"column", b"").decode())
+            if not {b"case", b"column"} <= set(said):
+                raise ExoError(
+                    f"{path}: {described.name}: does not say of which case and column it is, as results of an earlier "
+                    f"version: run `exo run {folder.name}` again"
+                )
+            key = (said[b"case"].decode(), said[b"column"].decode())
             values = column.to_numpy().astype(np.float64)
             there = np.isfinite(values)
             if key in found or not there.any():

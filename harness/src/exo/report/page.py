@@ -59,6 +59,7 @@ def render(*, sections: Sequence[Section], against: Path | None) -> str:
         groups=_groups(sections),
         printed=_printed(sections),
         counts={verdict: sum(one.counts[verdict] for one in sections) for verdict in VERDICTS},
+        requirements=sum(row.is_requirement for one in sections for row in one.rows),
         changed=sum(one.changed for one in sections),
         compared=any(one.before for one in sections),
         against=against,

@@ -11,6 +11,8 @@ from exo.paper import Published
 from exo.verdict import expectation
 
 Change = Literal["", "new", "verdict", "value"]
+#: Before the id of a number that is the margin of a requirement; its formula stands in `because`.
+REQUIREMENT = "requirement."
 #: Of the gauge: how far beyond the tolerance a number is still drawn in its place.
 BEYOND = 1.25
 
@@ -36,6 +38,11 @@ class Row:
     #: What the earlier run had, as text; empty where there was none, or it was the same.
     was: str
     value: float | None
+
+    @property
+    def is_requirement(self) -> bool:
+        """Whether the number is the margin of a requirement."""
+        return self.id.startswith(REQUIREMENT)
 
 
 class Before:

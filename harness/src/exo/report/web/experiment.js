@@ -83,6 +83,9 @@ function draw(stage, replayPlace, pack, scene) {
   const stop = bus.subscribe(() => (waiting ||= requestAnimationFrame(tell)));
   const repaint = () => plots.forEach((one) => one.paint());
   themeListeners.add(repaint);
+  // Where the first plot begins there is something to see.
+  const first = plots.length ? plots[0].panels[0].home[0] : bus.range[0];
+  bus.set(first, "plots");
   tell();
   return {
     bus,

@@ -5,6 +5,7 @@ const FILTERS = {
   fail: (row) => row.dataset.v === "fail",
   pass: (row) => row.dataset.v === "pass",
   info: (row) => row.dataset.v === "info",
+  requirement: (row) => row.dataset.r !== undefined,
   changed: (row) => row.dataset.c !== undefined,
 };
 
@@ -50,6 +51,7 @@ function startVerdicts() {
       group.hidden = !any;
     }
     for (const button of buttons) button.setAttribute("aria-pressed", String(button.dataset.filter === filter));
+    document.getElementById("verdicts").classList.toggle("unfiltered", filter === "all" && !words.length);
     const what = count === rows.length ? `All ${count} numbers` : `${count} of ${rows.length} numbers`;
     document.getElementById("shown").textContent = `${what}, in ${with_.size} of ${experiments.length} experiments.`;
   }
