@@ -14,7 +14,7 @@ from exo import __version__, scenes
 from exo.folder import write_file
 from exo.report import figures, packed, story
 from exo.report.section import VERDICTS, Section
-from exo.report.verdicts import Row, difference
+from exo.report.verdicts import Row, difference, plain
 
 #: In the order in which the page has them; a script uses what stands before it.
 STYLES = ("colours.css", "page.css", "first.css", "verdicts.css", "experiments.css", "plots.css", "print.css")
@@ -51,7 +51,7 @@ def render(*, sections: Sequence[Section], against: Path | None) -> str:
         lstrip_blocks=True,
         undefined=jinja2.StrictUndefined,
     )
-    environment.filters |= {"difference": difference, "marked": _marked}
+    environment.filters |= {"difference": difference, "marked": _marked, "plain": plain, "span": _span}
     drawn = {one.id: scenes.read(one.folder) for one in sections}
     mine = [home / "web" / "timebus.js", *(home / "report" / "web" / name for name in SCRIPTS)]
     return environment.get_template("page.html.jinja").render(
@@ -101,6 +101,14 @@ def _marked(text: str) -> Markup:
     return Markup("").join(
         Markup("<code>{}</code>").format(part) if i % 2 and len(parts) % 2 else part for i, part in enumerate(parts)
     )
+
+
+def _span(seconds: float) -> str:
+    """A time (s) as people say it."""
+    for name, length in (("h", 3600.0), ("min", 60.0)):
+        if seconds >= 2.0 * length:
+            return f"{seconds / length:.3g} {name}"
+    return f"{seconds:.3g} s"
 
 
 def _styles(home: Traversable) -> list[Traversable]:

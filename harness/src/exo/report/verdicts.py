@@ -88,6 +88,11 @@ def number(value: float | None) -> str:
     return "undefined" if value is None else f"{value:.5g}"
 
 
+def plain(value: float) -> str:
+    """A small number without an exponent: 0.00005."""
+    return f"{value:.9f}".rstrip("0").rstrip(".") if 1e-6 <= abs(value) < 1e-3 else f"{value:g}"
+
+
 def difference(row: Row) -> str:
     """How far the number is off the paper's, as a share of that; empty where one of them is no number, or zero."""
     if row.paper is None or row.value is None or not row.paper.value:
