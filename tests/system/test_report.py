@@ -233,14 +233,16 @@ def test_what_is_wrong_with_results_is_a_sentence(tmp_path: Path, fmu_dir: Path)
     assert "does not say of which case and column it is" in refused("--out", out)
 
 
-def test_a_scenario_of_one_s_own_has_a_page(tmp_path: Path, fmu_dir: Path) -> None:
-    path, out = tmp_path / "short.toml", tmp_path / "out"
-    path.write_text(SHORT.replace("A second of pushing", "A <b>second</b> & `K`"), encoding="utf-8")
+@pytest.mark.parametrize("name", ["short", "wall"])
+def test_a_scenario_of_one_s_own_has_a_page(name: str, tmp_path: Path, fmu_dir: Path) -> None:
+    path, out = tmp_path / "own.toml", tmp_path / "out"
+    text = SHORT.replace("A second of pushing", "A <b>second</b> & `K`").replace('id = "short"', f'id = "{name}"')
+    path.write_text(text.replace('id = "q"', 'id = "release"'), encoding="utf-8")
     exo("run", path, "--fmu-dir", fmu_dir, "--out", out)
-    exo("report", "--out", out)
+    assert exo("report", "--out", out).exit_code == 0
     page = Page(out / "report.html")
-    assert "A <b>second</b> & `K`" in page.root.xpath('//details[@id="short"]/summary')[0].text_content()
-    assert [facts["column"] for facts, _, _ in page.signals("short")] == ["plant.q"]
+    assert "A <b>second</b> & `K`" in page.root.xpath(f'//details[@id="{name}"]/summary')[0].text_content()
+    assert [facts["column"] for facts, _, _ in page.signals(name)] == ["plant.q"]
 
 
 def test_the_margins_of_requirements_have_a_filter_and_their_formula(tmp_path: Path, fmu_dir: Path) -> None:

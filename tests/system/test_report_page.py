@@ -319,7 +319,7 @@ def test_it_prints_what_is_open_in_light_colours_and_cuts_nothing_off(
         assert page.locator("#wall .own-verdicts tr").first.is_visible()
         for box in page.locator(".box:visible").all():
             assert box.evaluate("one => one.scrollHeight <= one.clientHeight + 1")
-        page.emulate_media(media="screen")
+        page.emulate_media(media="null")
         page.evaluate("dispatchEvent(new Event('beforeprint'))")
         assert page.evaluate("document.documentElement.dataset.theme") == "light"
         page.evaluate("dispatchEvent(new Event('afterprint'))")

@@ -85,9 +85,9 @@ def _signals(folder: Path, figures: Iterable[Figure]) -> dict[Key, Signal]:
         if figure.kind != "panels":
             continue
         path = folder / "figures" / f"{figure.id}.parquet"
-        table = _table(path)
-        time = table.column(0).to_numpy()
-        for described, column in zip(list(table.schema)[1:], table.columns[1:], strict=True):
+        columns = table(path)
+        time = columns.column(0).to_numpy()
+        for described, column in zip(list(columns.schema)[1:], columns.columns[1:], strict=True):
             said = described.metadata or {}
             if not {b"case", b"column"} <= set(said):
                 raise ExoError(
@@ -151,7 +151,8 @@ def _bands(bands: Bands, numbers: dict[Key, int]) -> dict[str, Any] | None:
     return {"s": number, "labels": bands.labels, "colors": colors}
 
 
-def _table(path: Path) -> pa.Table:
+def table(path: Path) -> pa.Table:
+    """A figure's numbers. ExoError: they are missing, or no Parquet file."""
     try:
         return pyarrow.parquet.read_table(path)
     except FileNotFoundError:

@@ -1,6 +1,6 @@
 """The first sentence and the first picture of the page: the wall that is let go, and the wall that is not.
 
-They are of the scenario `wall` as it comes with the harness, so the page has them where that was run.
+They are of the scenario `wall` as it comes with the harness, so the page has them where that was run as it is.
 """
 
 from collections.abc import Sequence
@@ -8,10 +8,9 @@ from dataclasses import dataclass
 
 import numpy as np
 import pyarrow as pa
-import pyarrow.parquet
 
 from exo.paper import Published
-from exo.report import thin
+from exo.report import figures, thin
 from exo.report.section import Section
 from exo.scenario import Figure
 
@@ -48,17 +47,22 @@ def tell(sections: Sequence[Section]) -> Story | None:
     found = {law: row for law, case in LAWS.items() for row in section.rows if row.id == f"{METRIC}/{case}"}
     figure = next((one for one in section.scenario.figures if one.id == FIGURE), None)
     metric = next((one for one in section.scenario.metrics if one.id == METRIC), None)
-    if figure is None or metric is None or set(found) != set(LAWS):
+    if figure is None or not figure.panels or metric is None or set(found) != set(LAWS):
         return None
     delay = {law: row.value for law, row in found.items() if row.value is not None}
-    if set(delay) != set(LAWS):
+    after = metric.arguments.get("after")
+    if set(delay) != set(LAWS) or not isinstance(after, int | float):
         return None
-    return _drawn(section, figure, float(metric.arguments["after"]), delay, found["standard"].paper)
+    return _drawn(section, figure, float(after), delay, found["standard"].paper)
 
 
-def _drawn(section: Section, figure: Figure, pull: float, delay: dict[str, float], paper: Published | None) -> Story:
+def _drawn(
+    section: Section, figure: Figure, pull: float, delay: dict[str, float], paper: Published | None
+) -> Story | None:
     panel = figure.panels[0]
-    (first, last), (low, high) = panel.x_range or (0.0, 1.0), panel.y_range or (0.0, 1.0)
+    if panel.x_range is None or panel.y_range is None or not panel.marks:
+        return None
+    (first, last), (low, high) = panel.x_range, panel.y_range
 
     def x(time: float) -> float:
         return LEFT + (RIGHT - LEFT) * (time - first) / (last - first)
@@ -66,11 +70,13 @@ def _drawn(section: Section, figure: Figure, pull: float, delay: dict[str, float
     def y(position: float) -> float:
         return BOTTOM - (BOTTOM - TOP) * (min(max(position, low), high) - low) / (high - low)
 
-    table = pa.parquet.read_table(section.folder / "figures" / f"{figure.id}.parquet")
+    table = figures.table(section.folder / "figures" / f"{figure.id}.parquet")
     time = table.column(0).to_numpy()
     lines = {}
     for law, case in LAWS.items():
         names = [one.name for one in table.schema if _is(one, case)]
+        if not names:
+            return None
         values = table.column(names[0]).to_numpy()
         shown = (time >= first) & (time <= last)
         t, q = time[shown], values[shown]
