@@ -11,7 +11,7 @@ from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure as Canvas
 from matplotlib.legend import Legend
 
-from exo import plots, scenario
+from exo import curves, plots, scenario
 from exo.looks import CYCLE, LABELS, SIGNALS, looks, signal
 from exo.recording import Recording
 from exo.scenario import Figure
@@ -134,7 +134,7 @@ def test_a_thinned_line_keeps_the_peaks_and_never_runs_back() -> None:
 
 
 def test_a_unit_of_fmi_is_printed_as_people_write_it() -> None:
-    assert [plots.printed(unit) for unit in ("N.m", "N.s/m", "", "rad")] == ["N·m", "N·s/m", "1", "rad"]
+    assert [curves.printed(unit) for unit in ("N.m", "N.s/m", "", "rad")] == ["N·m", "N·s/m", "1", "rad"]
 
 
 def test_units_of_metrics_are_written_with_the_same_dot() -> None:

@@ -11,6 +11,7 @@ from exo.commands import (
     identify_tool,
     measure,
     references,
+    report,
     requirements,
     scenarios,
     ssp,
@@ -44,6 +45,7 @@ app.command("list")(scenarios.list_scenarios)
 app.command("schema")(scenarios.print_schema)
 app.command("run")(scenarios.run)
 app.command("reproduce")(scenarios.reproduce)
+app.command("report")(report.report)
 app.command("sweep")(sweep.run_sweep)
 app.command("compare")(compare.compare)
 app.command("requirements")(requirements.list_requirements)

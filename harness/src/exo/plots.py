@@ -10,13 +10,11 @@ import pyarrow as pa
 from matplotlib import rcsetup
 from matplotlib.figure import Figure as Canvas
 
-from exo import handfigures, poses, theory
-from exo.errors import ScenarioError
+from exo import curves, handfigures, poses, theory
 from exo.looks import BLACK, BLUE, CYCLE, MARK, VERMILLION, Look, looks
 from exo.metrics.basic import window
 from exo.metrics.loops import loop_of
 from exo.metrics.response import measured_response
-from exo.profile import SAME_INSTANT
 from exo.recording import Recording
 from exo.scenario import Bands, Figure, Panel
 
@@ -194,31 +192,7 @@ def data(*, figure: Figure, recordings: Mapping[str, Recording]) -> pa.Table:
         return pa.table(handfigures.limits_table(recordings))
     if figure.poses:
         return pa.table(poses.table(poses=figure.poses, run=recordings[figure.poses.case]))
-    runs = {curve.case: recordings[curve.case] for panel in figure.panels for curve in panel.curves}
-    lengths = {round(len(run.time) * run.step / SAME_INSTANT) for run in runs.values()}
-    if len(lengths) > 1:
-        raise ScenarioError(f"figure {figure.id}: its curves must have one duration")
-    # Cases with other steps have other instants: a curve is empty where it has none.
-    instants = {case: np.round(run.time / SAME_INSTANT).astype(np.int64) for case, run in runs.items()}
-    every = np.unique(np.concatenate(list(instants.values())))
-    finest = max(runs.values(), key=lambda run: len(run.time))
-    table: dict[str, Any] = {figure.x_label: finest.time if len(every) == len(finest.time) else every * SAME_INSTANT}
-    for panel in figure.panels:
-        for curve in panel.curves:
-            run = runs[curve.case]
-            name = ", ".join(part for part in (panel.title, curve.label or curve.column) if part)
-            unit = run.units.get(curve.column, "")
-            column = run[curve.column]
-            if len(run.time) < len(every):
-                column = np.full(len(every), np.nan)
-                column[np.searchsorted(every, instants[curve.case])] = run[curve.column]
-            table[f"{name} [{printed(unit)}]"] = column
-    return pa.table(table)
-
-
-def printed(unit: str) -> str:
-    """A unit as people write it: FMI's `N.m` is N·m, and what has none is 1."""
-    return unit.replace(".", "·") or "1"
+    return curves.table(figure=figure, recordings=recordings)
 
 
 def response_table(recordings: Mapping[str, Recording]) -> dict[str, list[float]]:

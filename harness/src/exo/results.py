@@ -7,7 +7,7 @@ from typing import Any
 
 import jsonschema
 
-from exo import folder, junit, manifest, plots, recording
+from exo import earlier, folder, junit, manifest, plots, recording, scenes
 from exo.experiment import Experiment
 from exo.kept import EVERYTHING, Kept
 
@@ -41,6 +41,7 @@ def write(*, experiment: Experiment, out: Path, kept: Kept = EVERYTHING) -> Path
     document = json.dumps(metrics_document(experiment), indent=2, ensure_ascii=False)
     with folder.replaced(target) as fresh:
         (fresh / folder.METRICS).write_text(document + "\n", encoding="utf-8")
+        earlier.keep(old=target, fresh=fresh)
         if kept.has_signals_of(experiment.scenario.id):
             for case, run in experiment.recordings.items():
                 recording.write(run.table(experiment.scenario.signals), fresh / "signals" / case, csv=kept.csv)
@@ -48,6 +49,7 @@ def write(*, experiment: Experiment, out: Path, kept: Kept = EVERYTHING) -> Path
             plots.draw(figure=figure, recordings=experiment.recordings, path=fresh / f"{figure.id}.png")
             data = plots.data(figure=figure, recordings=experiment.recordings)
             recording.write(data, fresh / "figures" / figure.id, csv=kept.csv)
+        scenes.keep(experiment=experiment, fresh=fresh)
         (fresh / junit.NAME).write_bytes(junit.text([junit.suite(experiment)]))
         manifest.write(experiment=experiment, folder=fresh)
     return target

@@ -100,10 +100,12 @@ def _cases(scenario: Scenario, patterns: list[str]) -> list[Case]:
 
 def _metric(metric: Metric, ids: set[str]) -> list[Metric]:
     """The metric of the cases that are left, none if there is none."""
-    if metric.cases is None:
-        return [metric]
-    left = tuple(case for case in metric.cases if case in ids)
-    return [metric.model_copy(update={"cases": left})] if left else []
+    left = None if metric.cases is None else tuple(case for case in metric.cases if case in ids)
+    if left == ():
+        return []
+    expected = {case: check for case, check in metric.expected.items() if case in ids}
+    paper = {case: key for case, key in metric.paper.items() if case in ids}
+    return [metric.model_copy(update={"cases": left, "expected": expected, "paper": paper})]
 
 
 def _drawable(figure: Figure, ids: set[str], duration: float) -> bool:

@@ -13,6 +13,7 @@ DOCUMENTS = ("README.md", "harness/README.md", *sorted(f"docs/{path.name}" for p
 NOT_HERE = {
     "metrics.json": "results/<scenario>/",
     "manifest.json": "results/<scenario>/",
+    "earlier.json": "results/<scenario>/",
     "junit.xml": "results/<scenario>/",
     "figures/": "results/<scenario>/",
     "tune.json": "exo tune",

@@ -9,6 +9,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from exo import plots
+from exo.curves import printed
 from exo.errors import ExoError
 from exo.looks import CYCLE, DASHES
 
@@ -43,7 +44,7 @@ def drawn(run: "Run", names: Sequence[str], *, title: str) -> Picture:
                 time, values = plots.thinned(run.time, np.asarray(run[name], dtype=np.float64))
                 look = {"color": CYCLE[place % len(CYCLE)], "linestyle": DASHES[place % len(DASHES)]}
                 axes.plot(time, values, label=name, **look)
-            axes.set_ylabel(f"[{plots.printed(unit)}]")
+            axes.set_ylabel(f"[{printed(unit)}]")
             axes.legend(loc="best")
         grid.flat[-1].set_xlabel("time [s]")
         picture.suptitle(title, fontsize=11)

@@ -1,0 +1,112 @@
+// One pair of axes, drawn by uPlot: curves, marks and bands over the time.
+
+/** Instants of all curves, and each curve over them; null where a curve has no point. */
+function joined(panel, signals) {
+  const tables = panel.curves.map((curve) => [signals[curve.s].time, signals[curve.s].values]);
+  return tables.length ? uPlot.join(tables) : [[], []];
+}
+
+/** The range of the ordinate: the scenario's while all is shown, else that of what is seen. */
+function heights(panel, signals, view) {
+  if (panel.yRange && !view.zoomed) return panel.yRange;
+  const seen = panel.curves
+    .filter((curve) => !view.hidden.has(curve.label))
+    .map((curve) => extremesOf(signals[curve.s], view.from, view.to))
+    .filter(Boolean);
+  if (!seen.length) return panel.yRange || [0, 1];
+  let low = Math.min(...seen.map((one) => one[0]));
+  let high = Math.max(...seen.map((one) => one[1]));
+  if (!view.zoomed) {
+    low = Math.min(low, ...panel.marks);
+    high = Math.max(high, ...panel.marks);
+  }
+  const margin = 0.06 * (high - low) || Math.abs(high) * 0.1 || 1;
+  return [low - margin, high + margin];
+}
+
+/** Stretches of one value, coloured, behind the curves. */
+function drawBands(u, panel, signals) {
+  if (!panel.bands) return;
+  const { time, values } = signals[panel.bands.s];
+  const { left, top, width, height } = u.bbox;
+  const end = time.length - 1;
+  const place = (t) => Math.round(Math.min(Math.max(u.valToPos(t, "x", true), left), left + width));
+  for (let first = 0, k = 1; k <= time.length; k++) {
+    if (k <= end && values[k] === values[first]) continue;
+    const from = place(time[first]);
+    u.ctx.fillStyle = bandColor(panel.bands, Math.round(values[first]));
+    u.ctx.fillRect(from, top, place(time[Math.min(k, end)]) - from, height);
+    first = k;
+  }
+}
+
+/** Levels such as the wall or a limit, with what they are. */
+function drawMarks(u, panel) {
+  const { ctx } = u;
+  const { left, top, width, height } = u.bbox;
+  const scale = devicePixelRatio;
+  ctx.save();
+  ctx.strokeStyle = ctx.fillStyle = shownColor("#444444");
+  ctx.lineWidth = scale;
+  ctx.font = `${11 * scale}px system-ui, sans-serif`;
+  ctx.textAlign = "right";
+  ctx.textBaseline = "alphabetic";
+  for (const mark of panel.marks) {
+    const y = u.valToPos(mark, "y", true);
+    if (y < top || y > top + height) continue;
+    ctx.setLineDash([8 * scale, 3 * scale, 2 * scale, 3 * scale]);
+    ctx.beginPath();
+    ctx.moveTo(left, y);
+    ctx.lineTo(left + width, y);
+    ctx.stroke();
+    const above = y - top > 16 * scale;
+    ctx.fillText(`${panel.markLabel} ${written(mark)}`.trim(), left + width - 4 * scale, y + (above ? -4 : 12) * scale);
+  }
+  ctx.restore();
+}
+
+/** uPlot's options for a panel; `view` says what is shown: {from, to, zoomed, hidden}. */
+function optionsOf(panel, signals, view, size) {
+  const axis = () => ({
+    stroke: () => styleColor("--soft"),
+    grid: { stroke: () => styleColor("--grid"), width: 1 },
+    ticks: { stroke: () => styleColor("--grid"), width: 1, size: 4 },
+    font: "11px system-ui, sans-serif",
+    values: (_, marks) => marks.map((mark) => (mark === null ? "" : written(mark))),
+  });
+  return {
+    ...size,
+    legend: { show: false },
+    pxAlign: 0,
+    padding: [8, 10, 0, 0],
+    scales: {
+      x: { time: false, range: () => [view.from, view.to] },
+      y: { range: () => heights(panel, signals, view) },
+    },
+    series: [
+      {},
+      ...panel.curves.map((curve) => ({
+        label: curve.label,
+        stroke: () => shownColor(curve.color),
+        dash: dashOf(curve),
+        width: curve.dash.length ? 1.5 : 1.8,
+        spanGaps: true,
+        points: { show: false },
+      })),
+    ],
+    axes: [
+      { ...axis(), size: 24, space: 56 },
+      { ...axis(), size: 46, gap: 3, space: 28 },
+    ],
+    cursor: {
+      y: false,
+      points: { show: false },
+      drag: { x: true, y: false, setScale: false },
+      bind: { dblclick: () => () => null, mouseleave: () => () => null },
+    },
+    hooks: {
+      drawClear: [(u) => drawBands(u, panel, signals)],
+      draw: [(u) => drawMarks(u, panel)],
+    },
+  };
+}

@@ -1,0 +1,364 @@
+"""The page in a browser: what one clicks, drags and types does what it says, and nothing leaves the file."""
+
+import re
+from collections.abc import Iterator
+from importlib import resources
+from pathlib import Path
+
+import pytest
+from playwright.sync_api import Browser, Locator, Page
+
+from exo import experiment, loop, report, results
+from exo.scenario import load
+from exo.selection import narrowed
+
+from browser import chromium, shown, until
+
+SCENARIOS = ("gain_study", "wall", "frequency_response")
+RELEASE = "#wall figure"
+
+
+@pytest.fixture(scope="module")
+def file(fmu_dir: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A page of time plots, of a picture, of a failed verdict, and of verdicts that have changed."""
+    out = tmp_path_factory.mktemp("page")
+    wall = narrowed(load("wall"), cases=["*_5_0.5"])
+    study = load("gain_study")
+    broken = study.model_copy(
+        update={
+            "metrics": tuple(
+                metric.model_copy(update={"expected": {}, "check": metric.check.model_copy(update={"at_most": 0.0})})
+                if metric.id == "max_error"
+                else metric
+                for metric in study.metrics
+            )
+        }
+    )
+    for scenario in (study, broken, wall, load("frequency_response")):
+        done = experiment.run(scenario=scenario, fmu_dir=fmu_dir, engine=loop.fastest())
+        results.write(experiment=done, out=out)
+    return report.write(out=out, scenarios=list(SCENARIOS))
+
+
+@pytest.fixture(scope="module")
+def browser() -> Iterator[Browser]:
+    """One for all tests."""
+    with chromium() as found:
+        yield found
+
+
+def opened(page: Page, name: str) -> Locator:
+    """An experiment, opened by its line and drawn."""
+    section = page.locator(f"#{name}")
+    section.locator("summary").first.click()
+    section.locator(".uplot, figure img").first.wait_for()
+    return section
+
+
+def told(plot: Locator) -> tuple[float, dict[str, str]]:
+    """The instant (s) of a plot and what it says of each curve."""
+    text = plot.get_attribute("aria-valuetext") or ""
+    instant, _, values = text.replace("−", "-").partition(" s: ")
+    return float(instant), dict(part.split(" ", 1) for part in values.split("; "))
+
+
+def ranges(plots: list[Locator]) -> list[tuple[str, ...]]:
+    """First and last instant (s) that each plot shows."""
+    return [(plot.get_attribute("data-from") or "", plot.get_attribute("data-to") or "") for plot in plots]
+
+
+def test_filters_and_search_show_the_verdicts_that_they_name(browser: Browser, file: Path) -> None:
+    with shown(browser, file) as page:
+        every = page.locator("#all-verdicts tbody tr")
+        seen = page.locator("#all-verdicts tbody tr:visible")
+        assert seen.count() == every.count() > 50
+        failed = page.locator('#all-verdicts tr[data-v="fail"]').count()
+        assert failed == 3
+        page.get_by_role("button", name=re.compile("^Failed")).click()
+        assert seen.count() == failed
+        assert page.locator("details.experiment:visible").count() == 1
+        assert f"{failed} of {every.count()} numbers, in 1 of 3 experiments." in page.inner_text("#shown")
+        page.get_by_role("button", name=re.compile("^Changed")).click()
+        assert seen.count() == page.locator("#all-verdicts tr[data-c]").count() > 0
+        assert "was pass" in seen.first.inner_text()
+        page.get_by_role("button", name=re.compile("^All")).click()
+        page.fill("#search", "passive_bounded RELEASE")
+        texts = seen.all_inner_texts()
+        assert texts
+        assert all("release_delay/passive_bounded" in text for text in texts)
+        page.fill("#search", "no such thing")
+        assert seen.count() == 0
+
+
+def test_a_section_is_drawn_when_it_is_opened_and_given_back_when_it_is_closed(browser: Browser, file: Path) -> None:
+    with shown(browser, file) as page:
+        assert page.locator(".uplot canvas").count() == 0
+        section = opened(page, "wall")
+        assert section.locator(".uplot canvas").count() == 2
+        assert section.locator(".own-verdicts tbody tr").count() == page.locator('tbody[data-of="wall"] tr').count() / 2
+        section.locator("summary").first.click()
+        until(page, lambda: page.locator(".uplot canvas").count() == 0)
+        opened(page, "wall")
+        picture = opened(page, "frequency_response").locator("figure img")
+        assert picture.evaluate("image => image.decode().then(() => image.naturalWidth)") > 300
+
+
+def test_a_link_to_an_experiment_opens_it(browser: Browser, file: Path) -> None:
+    with shown(browser, file, at="#wall") as page:
+        page.locator("#wall .uplot").first.wait_for()
+    with shown(browser, file) as page:
+        page.locator("#paper a", has_text="gain_study").first.click()
+        page.locator("#gain_study .uplot").first.wait_for()
+        assert page.locator("#gain_study").evaluate("one => one.open")
+
+
+def test_all_plots_show_the_instant_under_the_mouse(browser: Browser, file: Path) -> None:
+    with shown(browser, file) as page:
+        plots = opened(page, "wall").locator(".plot").all()
+        area = plots[0].locator(".u-over")
+        area.hover(position={"x": 0.25 * (area.bounding_box() or {})["width"], "y": 40})
+        until(page, lambda: told(plots[0])[0] > 20.0)
+        instants = {told(plot)[0] for plot in plots}
+        assert len(instants) == 1
+        # A quarter of the way from 19.5 s to 42 s; q of the standard law still at the wall, the other off it.
+        assert instants.pop() == pytest.approx(25.125, abs=0.1)
+        q = told(plots[0])[1]
+        assert float(q["standard"].split()[0]) == pytest.approx(0.3, abs=1e-3)
+        assert float(q["passive_bounded"].split()[0]) < 0.0
+        assert q["standard"].endswith(" m")
+        assert told(plots[1])[1]["standard"].endswith(" N")
+        places = [plot.locator(".u-cursor-x").evaluate("line => line.getBoundingClientRect().left") for plot in plots]
+        assert places[0] == pytest.approx(places[1], abs=1.5)
+        # The slider moves them, too, and says where they are.
+        page.locator("#wall .timebar input").fill("30")
+        until(page, lambda: {told(plot)[0] for plot in plots} == {30.0})
+        assert page.inner_text("#wall .timebar output") == "t = 30.0 s"
+
+
+def test_a_drag_zooms_all_plots_and_a_double_click_shows_all_again(browser: Browser, file: Path) -> None:
+    with shown(browser, file) as page:
+        plots = opened(page, "wall").locator(".plot").all()
+        home = ranges(plots)
+        assert home == [("19.5", "42")] * 2
+        area = plots[1].locator(".u-over")
+        area.scroll_into_view_if_needed()
+        box = area.bounding_box() or {}
+        y = box["y"] + box["height"] / 2
+
+        def drag(first: float, last: float) -> None:
+            page.mouse.move(box["x"] + first * box["width"], y)
+            page.mouse.down()
+            page.mouse.move(box["x"] + last * box["width"], y, steps=4)
+            page.mouse.up()
+
+        drag(0.2, 0.4)
+        zoomed = [(float(a), float(b)) for a, b in ranges(plots)]
+        assert zoomed[0] == zoomed[1] == (pytest.approx(24.0, abs=0.1), pytest.approx(28.5, abs=0.1))
+        page.keyboard.down("Shift")
+        drag(0.5, 0.25)
+        page.keyboard.up("Shift")
+        shifted = [(float(a), float(b)) for a, b in ranges(plots)]
+        assert shifted[0] == (pytest.approx(25.125, abs=0.15), pytest.approx(29.625, abs=0.15))
+        page.mouse.dblclick(box["x"] + 100, y)
+        assert ranges(plots) == home
+        page.get_by_role("button", name="Zoom in").click()
+        page.get_by_role("button", name="Reset").or_(page.get_by_role("button", name="Show everything again")).click()
+        assert ranges(plots) == home
+
+
+def test_a_click_on_a_law_hides_it_in_every_panel_and_a_double_click_shows_it_alone(
+    browser: Browser, file: Path
+) -> None:
+    with shown(browser, file) as page:
+        section = opened(page, "wall")
+
+        def shown_laws() -> list[set[str]]:
+            return [
+                {one.get_attribute("data-label") or "" for one in panel.locator('.curve[aria-pressed="true"]').all()}
+                for panel in section.locator(".panel").all()
+            ]
+
+        def orange() -> int:
+            """Pixels in the colour of the law passive, vermillion."""
+            return int(
+                section.locator(".uplot canvas").first.evaluate(
+                    """canvas => {
+                      const data = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data;
+                      const is = (i) => data[i] > 180 && data[i + 2] < 60 && data[i + 3] > 200;
+                      let count = 0;
+                      for (let i = 0; i < data.length; i += 4) count += is(i);
+                      return count;
+                    }"""
+                )
+            )
+
+        every = {"standard", "passive", "passive_applied", "passive_bounded"}
+        assert shown_laws() == [every, every]
+        assert orange() > 20
+        section.locator('.curve[data-label="passive"]').first.click()
+        assert shown_laws() == [every - {"passive"}] * 2
+        until(page, lambda: orange() == 0)
+        section.locator('.curve[data-label="standard"]').last.dblclick()
+        assert shown_laws() == [{"standard"}] * 2
+        section.locator('.curve[data-label="standard"]').last.dblclick()
+        assert shown_laws() == [every] * 2
+
+
+def test_the_keys_alone_open_a_section_and_move_and_zoom(browser: Browser, file: Path) -> None:
+    with shown(browser, file) as page:
+        page.locator("#wall summary").first.focus()
+        page.keyboard.press("Enter")
+        plot = page.locator("#wall .plot").first
+        plot.wait_for()
+        for _ in range(80):
+            page.keyboard.press("Tab")
+            if plot.evaluate("one => one === document.activeElement"):
+                break
+        assert plot.evaluate("one => one === document.activeElement")
+        assert plot.get_attribute("role") == "slider"
+        assert "q [m]" in (plot.get_attribute("aria-label") or "")
+        page.keyboard.press("Home")
+        until(page, lambda: told(plot)[0] == 19.5)
+        for key in ("ArrowRight", "ArrowRight", "Shift+ArrowRight"):
+            page.keyboard.press(key)
+        until(page, lambda: told(plot)[0] == pytest.approx(19.5 + 12 * 22.5 / 200))
+        page.keyboard.press("+")
+        first, last = (float(x) for x in ranges([plot])[0])
+        assert last - first == pytest.approx(22.5 / 2)
+        page.keyboard.press("PageDown")
+        assert float(ranges([plot])[0][0]) == pytest.approx(first + 22.5 / 4)
+        page.keyboard.press("Escape")
+        assert ranges([plot]) == [("19.5", "42")]
+
+
+@pytest.mark.parametrize("width", [390, 800, 1400])
+@pytest.mark.parametrize("dark", [False, True])
+def test_nothing_is_wider_than_the_page_and_text_stands_out(
+    browser: Browser, file: Path, width: int, dark: bool
+) -> None:
+    with shown(browser, file, width=width, dark=dark) as page:
+        for name in SCENARIOS:
+            opened(page, name)
+        assert page.evaluate("document.documentElement.scrollWidth") <= width
+        wide = page.evaluate(
+            """width => [...document.querySelectorAll("main *")]
+                .filter(one => !one.closest(".box, .u-wrap, svg") && one.getBoundingClientRect().right > width + 1)
+                .map(one => one.className || one.tagName)""",
+            width,
+        )
+        assert wide == []
+        for selector in ("h1", ".soft", ".about", "a", ".counts", ".curve", ".value", "#search", "td"):
+            assert contrast(page, selector) >= 4.5, selector
+
+
+def contrast(page: Page, selector: str) -> float:
+    """Contrast of the first such text with what lies behind it, by WCAG 2.2 (1.4.3 asks for 4.5)."""
+    ink, ground = page.locator(f"main {selector}:visible").first.evaluate(
+        """one => {
+          const clear = (element) => getComputedStyle(element).backgroundColor === "rgba(0, 0, 0, 0)";
+          let behind = one;
+          while (behind && clear(behind)) behind = behind.parentElement;
+          return [getComputedStyle(one).color, getComputedStyle(behind || document.body).backgroundColor];
+        }"""
+    )
+
+    def luminance(color: str) -> float:
+        parts = [float(x) / 255.0 for x in re.findall(r"[\d.]+", color)[:3]]
+        linear = [x / 12.92 if x <= 0.04045 else ((x + 0.055) / 1.055) ** 2.4 for x in parts]
+        return 0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2]
+
+    low, high = sorted((luminance(ink), luminance(ground)))
+    return (high + 0.05) / (low + 0.05)
+
+
+def test_the_switch_makes_the_page_dark_and_redraws_the_plots(browser: Browser, file: Path) -> None:
+    with shown(browser, file) as page:
+        section = opened(page, "wall")
+
+        def ground() -> str:
+            return str(page.evaluate("getComputedStyle(document.body).backgroundColor"))
+
+        def line() -> str:
+            return str(section.locator('.curve[data-label="standard"] line').first.get_attribute("stroke"))
+
+        light = (ground(), line())
+        page.locator("#theme").click()
+        assert page.locator("#theme").get_attribute("aria-label") == "Colours: light"
+        assert (ground(), line()) == light
+        page.locator("#theme").click()
+        assert ground() != light[0]
+        assert line() != light[1]
+        # The choice outlives the page.
+        page.evaluate("window.stays = localStorage.getItem('exo-theme')")
+        assert page.evaluate("window.stays") == "dark"
+        page.locator("#theme").click()
+        assert (ground(), line()) == light
+
+
+def test_without_scripts_the_numbers_stand_and_a_sentence_says_what_is_missing(browser: Browser, file: Path) -> None:
+    with shown(browser, file, scripts=False) as page:
+        assert page.locator("#all-verdicts tbody tr").count() > 50
+        assert page.locator("#all-verdicts tbody tr").first.is_visible()
+        assert page.get_by_text("Scripts are off").is_visible()
+        assert not page.locator("#search").is_visible()
+        page.locator("#wall summary").first.click()
+        link = page.locator('#wall a[href="wall/release.png"]')
+        assert link.is_visible()
+        assert (file.parent / "wall" / "release.png").is_file()
+
+
+def test_it_prints_what_is_open_in_light_colours_and_cuts_nothing_off(
+    browser: Browser, file: Path, tmp_path: Path
+) -> None:
+    with shown(browser, file, dark=True) as page:
+        opened(page, "wall")
+        page.emulate_media(media="print")
+        assert page.locator(".bar").is_hidden()
+        assert page.locator(".timebar").is_hidden()
+        assert page.locator("#all-verdicts").is_hidden()
+        assert page.locator("#wall .own-verdicts tr").first.is_visible()
+        for box in page.locator(".box:visible").all():
+            assert box.evaluate("one => one.scrollHeight <= one.clientHeight + 1")
+        page.emulate_media(media="null")
+        page.evaluate("dispatchEvent(new Event('beforeprint'))")
+        assert page.evaluate("document.documentElement.dataset.theme") == "light"
+        page.evaluate("dispatchEvent(new Event('afterprint'))")
+        assert page.evaluate("document.documentElement.dataset.theme") == "system"
+
+        def pages() -> int:
+            page.pdf(path=tmp_path / "page.pdf")
+            return len(re.findall(rb"/Type\s*/Page\b", (tmp_path / "page.pdf").read_bytes()))
+
+        few = pages()
+        assert 3 <= few <= 9
+        page.fill("#search", "a")
+        assert pages() > few
+
+
+def test_the_bus_tells_everyone_once_and_ends_with_its_subscription(browser: Browser, tmp_path: Path) -> None:
+    script = (resources.files("exo") / "web" / "timebus.js").read_text(encoding="utf-8")
+    empty = tmp_path / "empty.html"
+    empty.write_text("<!doctype html><title>t</title>", encoding="utf-8")
+    with shown(browser, empty) as page:
+        heard = page.evaluate(
+            "() => {"
+            + script
+            + """
+            const bus = createTimeBus([1, 5]);
+            const heard = [];
+            const stop = bus.subscribe((t, source) => heard.push(["a", t, source]));
+            bus.subscribe((t, source) => { heard.push(["b", t, source]); bus.set(3, "b"); });
+            const first = bus.time;
+            bus.set(9, "mouse");
+            bus.set(NaN, "mouse");
+            stop();
+            bus.set(2, "keys");
+            return { first, heard, range: bus.range, last: bus.time };
+            }"""
+        )
+    assert heard["first"] == 1
+    assert heard["range"] == [1, 5]
+    assert heard["heard"][:2] == [["a", 5, "mouse"], ["b", 5, "mouse"]]
+    assert heard["heard"][2:4] == [["a", 3, "b"], ["b", 3, "b"]]
+    assert [one for one in heard["heard"][4:] if one[0] == "a"] == []
+    assert heard["last"] == 3
