@@ -1,0 +1,50 @@
+/* The loops that are measured: law and arm in C over recorded inputs, and an FMU over the same ones. A function of its own
+ * each, so that callgrind can count inside it. */
+#include "arm_law.h"
+
+typedef int (*transfer)(void *, const uint32_t *, size_t, void *);
+typedef int (*step_function)(void *, double, double, int);
+
+/* An FMU with the references of what is set and what is read; inputs lie row by row, outputs have room for one row. */
+struct fmu {
+    void *instance;
+    step_function do_step;
+    transfer set_real, set_boolean, get_real, get_integer, get_boolean;
+    const uint32_t *inputs, *switches, *reals, *integers, *booleans;
+    size_t inputs_count, switches_count, reals_count, integers_count, booleans_count;
+    const double *input_rows;
+    const int32_t *switch_rows;
+    double *real_row;
+    int32_t *integer_row, *boolean_row;
+};
+
+/* Set, step, get. Returns the step that failed, or -1. */
+long fmu_cycles(const struct fmu *f, size_t steps, double h)
+{
+    for (size_t k = 0; k < steps; k++) {
+        if (f->set_real(f->instance, f->inputs, f->inputs_count, (void *)(f->input_rows + k * f->inputs_count)))
+            return (long)k;
+        if (f->switches_count && f->set_boolean(f->instance, f->switches, f->switches_count,
+                                                (void *)(f->switch_rows + k * f->switches_count)))
+            return (long)k;
+        if (f->do_step(f->instance, (double)k * h, h, 1)) return (long)k;
+        if (f->get_real(f->instance, f->reals, f->reals_count, f->real_row)) return (long)k;
+        if (f->integers_count && f->get_integer(f->instance, f->integers, f->integers_count, f->integer_row)) return (long)k;
+        if (f->booleans_count && f->get_boolean(f->instance, f->booleans, f->booleans_count, f->boolean_row)) return (long)k;
+    }
+    return -1;
+}
+
+/* The same of the law: q and f_h are set, the tick made, its outputs read into `outputs`, which moves on by `stride` rows.
+ * Returns the tick that failed, or -1. */
+long law_cycles(struct arm_law *law, const double *input_rows, size_t ticks, struct arm_law_outputs *outputs, size_t stride)
+{
+    struct arm_law_inputs in = {.engage = 1, .ft_valid = 1, .encoder_valid = 1};
+    for (size_t k = 0; k < ticks; k++, outputs += stride) {
+        for (int i = 0; i < 3; i++) in.q[i] = input_rows[6 * k + i], in.f_h[i] = input_rows[6 * k + 3 + i];
+        if (arm_law_tick(law, &in, outputs) != ARM_LAW_OK) return (long)k;
+    }
+    return -1;
+}
+
+size_t law_size(void) { return sizeof(struct arm_law); }
