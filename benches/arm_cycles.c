@@ -1,6 +1,7 @@
 /* The loops that are measured: law and arm in C over recorded inputs, and an FMU over the same ones. A function of its own
  * each, so that callgrind can count inside it. */
 #include "arm_law.h"
+#include "arm_plant.h"
 
 typedef int (*transfer)(void *, const uint32_t *, size_t, void *);
 typedef int (*step_function)(void *, double, double, int);
@@ -46,5 +47,20 @@ long law_cycles(struct arm_law *law, const double *input_rows, size_t ticks, str
     }
     return -1;
 }
+
+/* The same of the arm, with rows of tau_a, f_h and f_d and of the vacuum's switch, in steps of h (s). */
+long plant_cycles(struct arm_plant *arm, const double *input_rows, const int32_t *vacuum, size_t steps, double h,
+                  struct arm_plant_outputs *outputs, size_t stride)
+{
+    struct arm_plant_inputs in;
+    for (size_t k = 0; k < steps; k++, outputs += stride) {
+        memcpy(&in, input_rows + 9 * k, 9 * sizeof *input_rows);
+        in.vacuum = vacuum[k];
+        if (arm_plant_step(arm, &in, h, outputs) != ARM_PLANT_OK) return (long)k;
+    }
+    return -1;
+}
+
+size_t plant_size(void) { return sizeof(struct arm_plant); }
 
 size_t law_size(void) { return sizeof(struct arm_law); }

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from exo.recording import Recording
 
 HERE = Path(__file__).parent
-SOURCES = ("arm_law.c", "arm_cycles.c")
+SOURCES = ("arm_law.c", "arm_plant.c", "arm_cycles.c")
 #: No contraction, or the sums would round otherwise; what nobody looks at (errno, traps) is not kept, as in Rust.
 FLAGS = ("-std=c99", "-O3", "-ffp-contract=off", "-fno-math-errno", "-fno-trapping-math", "-Wall", "-Wextra")
 
@@ -61,6 +61,33 @@ class Law:
         assert failed == -1, f"tick {failed}"
         reals = {name: rows["reals"][:, i] for i, name in enumerate(self.reals)}
         return reals | {name: rows["integers"][:, i] for i, name in enumerate(self.integers)}
+
+
+class Plant:
+    """The arm in C."""
+
+    def __init__(self, library: CDLL, parameters: Mapping[str, float]) -> None:
+        self.library = library
+        self.reals, self.booleans = names(library, "arm_plant_real_names"), names(library, "arm_plant_boolean_names")
+        self.row = np.dtype([("reals", "f8", len(self.reals)), ("booleans", "i4", len(self.booleans))])
+        values = [float(parameters[name]) for name in names(library, "arm_plant_parameter_names")]
+        self.parameters = (c_double * len(values))(*values)
+        self.state = create_string_buffer(library.plant_size())
+        self.run = library.plant_cycles
+        self.run.restype = c_long
+        self.run.argtypes = [c_void_p, c_void_p, c_void_p, c_size_t, c_double, c_void_p, c_size_t]
+        self.start()
+
+    def start(self) -> None:
+        self.library.arm_plant_start(self.state, self.parameters)
+
+    def replayed(self, inputs: NDArray[np.float64], vacuum: NDArray[np.int32], step: float) -> dict[str, NDArray[Any]]:
+        """Outputs for rows of tau_a, f_h and f_d, by name."""
+        rows = np.zeros(len(inputs), dtype=self.row)
+        failed = self.run(self.state, inputs.ctypes.data, vacuum.ctypes.data, len(inputs), step, rows.ctypes.data, 1)
+        assert failed == -1, f"step {failed}"
+        reals = {name: rows["reals"][:, i] for i, name in enumerate(self.reals)}
+        return reals | {name: rows["booleans"][:, i] for i, name in enumerate(self.booleans)}
 
 
 def inputs_of(run: Recording, component: str, names: tuple[str, ...]) -> NDArray[np.float64]:
