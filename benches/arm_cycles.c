@@ -1,5 +1,6 @@
-/* The loops that are measured: law and arm in C over recorded inputs, and an FMU over the same ones. A function of its own
- * each, so that callgrind can count inside it. */
+/* The loops that are measured: law and arm in C over recorded inputs, and an FMU over the same ones; each makes the steps
+ * `first` to before `end` of h (s), and returns the one that failed, or -1. A function of its own each, so that callgrind can
+ * count inside it. */
 #include "arm_law.h"
 #include "arm_plant.h"
 
@@ -13,21 +14,19 @@ struct fmu {
     transfer set_real, set_boolean, get_real, get_integer, get_boolean;
     const uint32_t *inputs, *switches, *reals, *integers, *booleans;
     size_t inputs_count, switches_count, reals_count, integers_count, booleans_count;
-    const double *input_rows;
-    const int32_t *switch_rows;
+    double *input_rows;
+    int32_t *switch_rows;
     double *real_row;
     int32_t *integer_row, *boolean_row;
 };
 
-/* Set, step, get. Returns the step that failed, or -1. */
-long fmu_cycles(const struct fmu *f, size_t steps, double h)
+/* Set, step, get. */
+long fmu_cycles(const struct fmu *f, size_t first, size_t end, double h)
 {
-    for (size_t k = 0; k < steps; k++) {
-        if (f->set_real(f->instance, f->inputs, f->inputs_count, (void *)(f->input_rows + k * f->inputs_count)))
-            return (long)k;
-        if (f->switches_count && f->set_boolean(f->instance, f->switches, f->switches_count,
-                                                (void *)(f->switch_rows + k * f->switches_count)))
-            return (long)k;
+    for (size_t k = first; k < end; k++) {
+        int32_t *on = f->switch_rows + k * f->switches_count;
+        if (f->set_real(f->instance, f->inputs, f->inputs_count, f->input_rows + k * f->inputs_count)) return (long)k;
+        if (f->switches_count && f->set_boolean(f->instance, f->switches, f->switches_count, on)) return (long)k;
         if (f->do_step(f->instance, (double)k * h, h, 1)) return (long)k;
         if (f->get_real(f->instance, f->reals, f->reals_count, f->real_row)) return (long)k;
         if (f->integers_count && f->get_integer(f->instance, f->integers, f->integers_count, f->integer_row)) return (long)k;
@@ -36,30 +35,34 @@ long fmu_cycles(const struct fmu *f, size_t steps, double h)
     return -1;
 }
 
-/* The same of the law: q and f_h are set, the tick made, its outputs read into `outputs`, which moves on by `stride` rows.
- * Returns the tick that failed, or -1. */
-long law_cycles(struct arm_law *law, const double *input_rows, size_t ticks, struct arm_law_outputs *outputs, size_t stride)
+/* The law with rows of q and f_h. Outputs go to `outputs`, the next ones `stride` structs further on. */
+long law_cycles(struct arm_law *law, const double *sensed, const int32_t *unused, size_t first, size_t end, double h,
+                struct arm_law_outputs *outputs, size_t stride)
 {
     struct arm_law_inputs in = {.engage = 1, .ft_valid = 1, .encoder_valid = 1};
-    for (size_t k = 0; k < ticks; k++, outputs += stride) {
-        for (int i = 0; i < 3; i++) in.q[i] = input_rows[6 * k + i], in.f_h[i] = input_rows[6 * k + 3 + i];
+    (void)unused, (void)h;
+    for (size_t k = first; k < end; k++, outputs += stride) {
+        for (int i = 0; i < 3; i++) in.q[i] = sensed[6 * k + i], in.f_h[i] = sensed[6 * k + 3 + i];
         if (arm_law_tick(law, &in, outputs) != ARM_LAW_OK) return (long)k;
     }
     return -1;
 }
 
-/* The same of the arm, with rows of tau_a, f_h and f_d and of the vacuum's switch, in steps of h (s). */
-long plant_cycles(struct arm_plant *arm, const double *input_rows, const int32_t *vacuum, size_t steps, double h,
+/* The arm with rows of tau_a, f_h and f_d, and the vacuum's switch. */
+long plant_cycles(struct arm_plant *arm, const double *forces, const int32_t *vacuum, size_t first, size_t end, double h,
                   struct arm_plant_outputs *outputs, size_t stride)
 {
     struct arm_plant_inputs in;
-    for (size_t k = 0; k < steps; k++, outputs += stride) {
-        memcpy(&in, input_rows + 9 * k, 9 * sizeof *input_rows);
+    for (size_t k = first; k < end; k++, outputs += stride) {
+        memcpy(&in, forces + 9 * k, 9 * sizeof *forces);
         in.vacuum = vacuum[k];
         if (arm_plant_step(arm, &in, h, outputs) != ARM_PLANT_OK) return (long)k;
     }
     return -1;
 }
+
+/* Where callgrind writes down what it has counted so far, and begins anew. */
+__attribute__((noinline)) void counted_part(void) { __asm__ volatile(""); }
 
 size_t plant_size(void) { return sizeof(struct arm_plant); }
 

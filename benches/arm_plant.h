@@ -2,7 +2,7 @@
  * check it. It is not generated from Rust and calls none of it.
  *
  * Configuration: drives that take torques, gears without loss of their own, ideal encoders, a force sensor in the base frame
- * without noise, hysteresis, tool and failure. What runs then in each substep is here: drive lag, rigid body with or without
+ * without noise, hysteresis, tool and failure, no payload at the start. What runs then in each substep is here: drive lag, rigid body with or without
  * payload, friction that sticks, stops, table and wall with friction on each, the guess that is revised until it agrees with
  * its solution, the energy balance, gripping and losing the payload; and after a step every output and local. Where the pad
  * rubs on both surfaces at once, or no guess agrees with its solution, arm_plant_step says ARM_PLANT_ELSEWHERE. */

@@ -72,6 +72,7 @@ static __attribute__((noinline)) void rub(const struct problem *problem, const b
     int k = pushes[0] ? 0 : 1;
     times(w, problem->J, found->v);
     rubbed(friction, problem, k, S, w);
+    for (int i = 0; i < 3; i++) friction[i] += 0.0; /* the other surface's */
     times(moved, spread, friction);
     for (int i = 0; i < 3; i++) found->v[i] += moved[i];
     times(w, problem->J, found->v);
