@@ -1,8 +1,37 @@
 /* The loops that are measured: law and arm in C over recorded inputs, and an FMU over the same ones; each makes the steps
- * `first` to before `end` of h (s), and returns the one that failed, or -1. A function of its own each, so that callgrind can
- * count inside it. */
+ * `first` to before `end` of h (s), and returns the one that failed, or -1. callgrind counts inside them. */
 #include "arm_law.h"
 #include "arm_plant.h"
+
+/* valgrind's own header: without it nothing can be counted, and nobody asks for it. */
+#if __has_include(<valgrind/callgrind.h>)
+#include <valgrind/callgrind.h>
+#else
+#define CALLGRIND_START_INSTRUMENTATION
+#define CALLGRIND_STOP_INSTRUMENTATION
+#define CALLGRIND_DUMP_STATS
+#endif
+
+static bool counts;
+
+/* Whether callgrind is to count in the loops that follow, each into a file of its own. */
+void count_calls(int whether) { counts = whether; }
+
+static void begins(void)
+{
+    if (counts) {
+        CALLGRIND_START_INSTRUMENTATION;
+    }
+}
+
+static long ended(long failed)
+{
+    if (counts) {
+        CALLGRIND_DUMP_STATS;
+        CALLGRIND_STOP_INSTRUMENTATION;
+    }
+    return failed;
+}
 
 typedef int (*transfer)(void *, const uint32_t *, size_t, void *);
 typedef int (*step_function)(void *, double, double, int);
@@ -23,6 +52,7 @@ struct fmu {
 /* Set, step, get. */
 long fmu_cycles(const struct fmu *f, size_t first, size_t end, double h)
 {
+    begins();
     for (size_t k = first; k < end; k++) {
         int32_t *on = f->switch_rows + k * f->switches_count;
         if (f->set_real(f->instance, f->inputs, f->inputs_count, f->input_rows + k * f->inputs_count)) return (long)k;
@@ -32,7 +62,7 @@ long fmu_cycles(const struct fmu *f, size_t first, size_t end, double h)
         if (f->integers_count && f->get_integer(f->instance, f->integers, f->integers_count, f->integer_row)) return (long)k;
         if (f->booleans_count && f->get_boolean(f->instance, f->booleans, f->booleans_count, f->boolean_row)) return (long)k;
     }
-    return -1;
+    return ended(-1);
 }
 
 /* The law with rows of q and f_h. Outputs go to `outputs`, the next ones `stride` structs further on. */
@@ -41,11 +71,12 @@ long law_cycles(struct arm_law *law, const double *sensed, const int32_t *unused
 {
     struct arm_law_inputs in = {.engage = 1, .ft_valid = 1, .encoder_valid = 1};
     (void)unused, (void)h;
+    begins();
     for (size_t k = first; k < end; k++, outputs += stride) {
         for (int i = 0; i < 3; i++) in.q[i] = sensed[6 * k + i], in.f_h[i] = sensed[6 * k + 3 + i];
         if (arm_law_tick(law, &in, outputs) != ARM_LAW_OK) return (long)k;
     }
-    return -1;
+    return ended(-1);
 }
 
 /* The arm with rows of tau_a, f_h and f_d, and the vacuum's switch. */
@@ -53,16 +84,14 @@ long plant_cycles(struct arm_plant *arm, const double *forces, const int32_t *va
                   struct arm_plant_outputs *outputs, size_t stride)
 {
     struct arm_plant_inputs in;
+    begins();
     for (size_t k = first; k < end; k++, outputs += stride) {
         memcpy(&in, forces + 9 * k, 9 * sizeof *forces);
         in.vacuum = vacuum[k];
         if (arm_plant_step(arm, &in, h, outputs) != ARM_PLANT_OK) return (long)k;
     }
-    return -1;
+    return ended(-1);
 }
-
-/* Where callgrind writes down what it has counted so far, and begins anew. */
-__attribute__((noinline)) void counted_part(void) { __asm__ volatile(""); }
 
 size_t plant_size(void) { return sizeof(struct arm_plant); }
 
