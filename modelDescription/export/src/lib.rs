@@ -63,6 +63,7 @@ mod outputs;
 pub mod provenance;
 pub mod resource;
 pub mod sampler;
+mod slots;
 pub mod snapshot;
 mod symbols;
 pub mod time;
