@@ -129,7 +129,11 @@ static inline int hand(struct arm_law *law, const struct arm_law_inputs *in, dou
     moment[0] = 0.0 - (r[1] * force[2] - r[2] * force[1]);
     moment[1] = 0.0 - (r[2] * force[0] - r[0] * force[2]);
     moment[2] = 0.0 - (r[0] * force[1] - r[1] * force[0]);
-    return fault;
+    none = 0.0;
+    for (int i = 0; i < 3; i++) none += 0.0 * force[i] + 0.0 * moment[i];
+    if (none == 0.0) return fault;
+    for (int i = 0; i < 3; i++) force[i] = moment[i] = 0.0;
+    return NOT_FINITE;
 }
 
 static inline void sense(const struct arm_law *law, struct sensed *now, const double p[3])

@@ -281,6 +281,15 @@ impl<M, V: Value> Place<M, V> {
         unsafe { V::read(begin.add(self.offset_of(i)), self.stored) }
     }
 
+    /// The value of element `i`, from 0; none where there are fewer.
+    #[inline]
+    pub fn find(&self, model: &M, i: u32) -> Option<V> {
+        let begin = core::ptr::from_ref(model).cast::<u8>();
+        let at = self.offset as usize + self.stride as usize * i as usize;
+        // SAFETY: as in `get`: there is an element `i`.
+        (i < self.len).then(|| unsafe { V::read(begin.add(at), self.stored) })
+    }
+
     /// Gives element `i`, from 0, another value. The last one where there are fewer.
     #[inline]
     pub fn set(&self, model: &mut M, i: usize, value: V) {

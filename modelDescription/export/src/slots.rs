@@ -85,13 +85,11 @@ impl<M: Model> Slots<M> {
         Self(slots.into())
     }
 
-    /// The slot of a value reference, with the place of values of this type, and the element.
+    /// The slot of a value reference, with the place of its row's values of this type.
     #[inline]
-    fn find<K: Kind>(&self, reference: u32) -> Option<(&Slot<M>, &Place<M, K::Value>, usize)> {
+    fn find<K: Kind>(&self, reference: u32) -> Option<(&Slot<M>, &Place<M, K::Value>)> {
         let slot = self.0.get((reference / SCALARS_PER_ROW) as usize)?;
-        let element = (reference % SCALARS_PER_ROW) as usize;
-        let at = K::quick(&slot.at)?;
-        (element < at.len()).then_some((slot, at, element))
+        Some((slot, K::quick(&slot.at)?))
     }
 }
 
@@ -99,8 +97,8 @@ impl<M: Model> Instance<M> {
     /// The value of a variable that has a slot.
     #[inline]
     pub(crate) fn quick<K: Kind>(&self, reference: u32) -> Option<K::Value> {
-        let (_, at, element) = self.slots.find::<K>(reference)?;
-        Some(at.get(&self.now.model, element))
+        let (_, at) = self.slots.find::<K>(reference)?;
+        at.find(&self.now.model, reference % SCALARS_PER_ROW)
     }
 
     /// Sets inputs, if all references are such and all values will do; else nothing.
@@ -111,15 +109,21 @@ impl<M: Model> Instance<M> {
         value: &impl Fn(usize) -> Result<K::Value, E>,
     ) -> bool {
         let slots = &self.slots;
-        let takes = |(i, reference): (usize, &u32)| match (slots.find::<K>(*reference), value(i)) {
-            (Some((slot, _, _)), Ok(value)) => value.number().is_some_and(|n| slot.takes(n)),
-            _ => false,
+        let takes = |(i, reference): (usize, &u32)| {
+            let element = (reference % SCALARS_PER_ROW) as usize;
+            match (slots.find::<K>(*reference), value(i)) {
+                (Some((slot, at)), Ok(value)) if element < at.len() => {
+                    value.number().is_some_and(|number| slot.takes(number))
+                }
+                _ => false,
+            }
         };
         if !references.iter().enumerate().all(takes) {
             return false;
         }
         for (i, reference) in references.iter().enumerate() {
-            if let (Some((_, at, element)), Ok(value)) = (slots.find::<K>(*reference), value(i)) {
+            let element = (reference % SCALARS_PER_ROW) as usize;
+            if let (Some((_, at)), Ok(value)) = (slots.find::<K>(*reference), value(i)) {
                 at.set(&mut self.now.model, element, value);
             }
         }
