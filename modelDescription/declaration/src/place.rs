@@ -367,3 +367,31 @@ impl<M> Place<M, bool> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::are_finite;
+
+    #[test]
+    fn one_number_that_is_not_finite_is_found_among_many() {
+        let finite = [
+            0.0,
+            -0.0,
+            f64::MAX,
+            f64::MIN,
+            f64::MIN_POSITIVE,
+            -5e-324,
+            1.0,
+            -3.5,
+            1e308,
+        ];
+        assert!(are_finite(&finite) && are_finite(&[]));
+        for wrong in [f64::NAN, -f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+            for i in 0..finite.len() {
+                let mut values = finite;
+                values[i] = wrong;
+                assert!(!are_finite(&values), "{wrong} at {i}");
+            }
+        }
+    }
+}
