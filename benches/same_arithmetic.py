@@ -1,7 +1,7 @@
-"""Controller and arm beside the same arithmetic in C: `python benches/same_arithmetic.py`, a stage of `cargo xtask bench`.
+"""Controller and arm beside the same arithmetic in C: `python benches/same_arithmetic.py`, in `cargo xtask bench`.
 
-The inputs are those of the scenario arm_payload, recorded: the pad lands, presses, grips, comes off the table, carries, sets
-down. All sides get them in turns, and the smallest time of each counts. That they compute the same is what
+The inputs are those of the scenario arm_payload, recorded: the pad lands, presses, grips, comes off the table, carries,
+sets down. All sides get them in turns, and the smallest time of each counts. That they compute the same is what
 `tests/system/test_same_arithmetic.py` shows, bit for bit.
 
 | side | what is measured |
@@ -21,20 +21,19 @@ import sys
 import tempfile
 from collections.abc import Callable
 from contextlib import ExitStack
-from ctypes import CDLL, POINTER, Structure, byref, c_double, c_long, c_size_t, c_void_p, cast
-from dataclasses import dataclass
+from ctypes import CDLL, Structure, byref, c_double, c_long, c_size_t, c_void_p, cast
+from dataclasses import dataclass, field
 from pathlib import Path
 from shutil import which
 from time import perf_counter
-from typing import Any
 
 import numpy as np
-from engines import Row
-from in_c import FORCES, SENSED, Case, InC, compiled, recorded
 from numpy.typing import NDArray
 
+from engines import Row
 from exo.fmu import DTYPES, Archive, Instance, find_fmu_dir
 from exo.manifest import processor
+from in_c import FORCES, SENSED, Case, InC, compiled, recorded
 
 SCENARIO, CASE = "arm_payload", "passive_bounded_17.5kg"
 REPETITIONS = 7
@@ -68,19 +67,23 @@ class Side:
     advance: Callable[[int, int], None]
 
 
-def played(
-    library: CDLL,
-    instance: Instance,
-    case: Case,
-    component: str,
-    inputs: tuple[tuple[str, ...], NDArray[np.float64]],
-    switches: tuple[tuple[str, ...], NDArray[np.int32]],
-    outputs: list[str],
-) -> Side:
+@dataclass(frozen=True)
+class Given:
+    """What a component gets: its name, its archive, names and rows of Reals and of Booleans."""
+
+    component: str
+    archive: str
+    inputs: tuple[str, ...]
+    rows: NDArray[np.float64]
+    switches: tuple[str, ...] = ()
+    switch_rows: NDArray[np.int32] = field(default_factory=lambda: np.zeros(1, dtype=np.int32))
+
+
+def played(library: CDLL, instance: Instance, case: Case, inputs: Given, outputs: list[str]) -> Side:
     """An FMU over recorded inputs."""
     run = library.fmu_cycles
     run.restype, run.argtypes = c_long, [c_void_p, c_size_t, c_size_t, c_double]
-    given, shown = instance.references([*inputs[0], *switches[0]]), instance.references(outputs)
+    given, shown = instance.references([*inputs.inputs, *inputs.switches]), instance.references(outputs)
     rows = [np.zeros(max(refs.count, 1), dtype=DTYPES[kind]) for kind, refs in shown.items()]
     calls = ("DoStep", "SetReal", "SetBoolean", "GetReal", "GetInteger", "GetBoolean")
     all_references = (given["Real"], given["Boolean"], shown["Real"], shown["Integer"], shown["Boolean"])
@@ -89,15 +92,15 @@ def played(
         *(cast(instance.function(f"fmi2{name}"), c_void_p).value for name in calls),
         *(refs.address for refs in all_references),
         *(refs.count for refs in all_references),
-        inputs[1].ctypes.data,
-        switches[1].ctypes.data,
+        inputs.rows.ctypes.data,
+        inputs.switch_rows.ctypes.data,
         *(row.ctypes.data for row in rows),
     )
-    struct.kept = (inputs, switches, rows, all_references)  # alive as long as what points to them
+    struct.kept = (inputs, rows, all_references)  # alive as long as what points to them
 
     def start() -> None:
         instance.reset()
-        instance.set_starts(case.given[component])
+        instance.set_starts(case.given[inputs.component])
         instance.setup_experiment(start_time=0.0, stop_time=1e4)
         instance.enter_initialization_mode()
         instance.exit_initialization_mode()
@@ -119,14 +122,15 @@ def in_c(library: CDLL, name: str, case: Case) -> Side:
 def sides(stack: ExitStack, library: CDLL, fmu_dir: Path, case: Case) -> dict[str, Side]:
     """All that is measured, by name."""
     found: dict[str, Side] = {}
-    nothing: tuple[tuple[str, ...], NDArray[np.int32]] = ((), np.zeros(1, dtype=np.int32))
-    law = ("law", "controller", "ArmController.fmu", (SENSED, case.sensed), nothing)
-    arm = ("arm", "plant", "ExoskeletonArm.fmu", (FORCES, case.forces), (("vacuum",), case.vacuum))
-    for name, component, file, inputs, switches in (law, arm):
-        archive = stack.enter_context(Archive(fmu_dir / file))
+    given = {
+        "law": Given("controller", "ArmController.fmu", SENSED, case.sensed),
+        "arm": Given("plant", "ExoskeletonArm.fmu", FORCES, case.forces, ("vacuum",), case.vacuum),
+    }
+    for name, inputs in given.items():
+        archive = stack.enter_context(Archive(fmu_dir / inputs.archive))
         for what, outputs in (("FMU", WIRED[name]), ("FMU, all outputs", archive.names("output"))):
             instance = stack.enter_context(Instance(archive, name))
-            found[f"{name} {what}"] = played(library, instance, case, component, inputs, switches, outputs)
+            found[f"{name} {what}"] = played(library, instance, case, inputs, outputs)
     return found | {"law C": in_c(library, "law", case), "arm C": in_c(library, "plant", case)}
 
 
