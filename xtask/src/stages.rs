@@ -107,11 +107,11 @@ pub fn bench() -> Outcome {
     })?;
     stage("native", || native(Packages::Test))?;
     stage("engines", || run(&mut venv.command(["benches/engines.py"])))?;
-    stage("same arithmetic", || {
-        run(&mut venv.command(["benches/same_arithmetic.py"]))
-    })?;
     stage("arm benchmark", || {
         run(&mut venv.command(["tests/system/oracles/benchmark.py"]))
+    })?;
+    stage("same arithmetic", || {
+        run(&mut venv.command(["benches/same_arithmetic.py"]))
     })
 }
 
