@@ -34,6 +34,9 @@ pub(crate) struct Slot<M> {
     high: f64,
 }
 
+/// A slot, with the place of its row's values of a type.
+type Found<'a, M, K> = (&'a Slot<M>, &'a Place<M, <K as Kind>::Value>);
+
 /// All rows of a model, by number.
 pub(crate) struct Slots<M: Model>(Box<[Slot<M>]>);
 
@@ -85,9 +88,9 @@ impl<M: Model> Slots<M> {
         Self(slots.into())
     }
 
-    /// The slot of a value reference, with the place of its row's values of this type.
+    /// The slot of a value reference, if its row is of this type.
     #[inline]
-    fn find<K: Kind>(&self, reference: u32) -> Option<(&Slot<M>, &Place<M, K::Value>)> {
+    fn find<K: Kind>(&self, reference: u32) -> Option<Found<'_, M, K>> {
         let slot = self.0.get((reference / SCALARS_PER_ROW) as usize)?;
         Some((slot, K::quick(&slot.at)?))
     }
