@@ -120,6 +120,9 @@ pub fn bench() -> Outcome {
     stage("engines", || run(&mut venv.command(["benches/engines.py"])))?;
     stage("arm benchmark", || {
         run(&mut venv.command(["tests/system/oracles/benchmark.py"]))
+    })?;
+    stage("same arithmetic", || {
+        run(&mut venv.command(["benches/same_arithmetic.py"]))
     })
 }
 

@@ -8,9 +8,10 @@ use core::marker::PhantomData;
 /// A place is made by the macros and the derive of this crate alone, from the path of a field that the compiler has found to
 /// be of the right type. All reading and writing by offset is in this file.
 pub struct Place<M, V> {
-    offset: usize,
-    stride: usize,
-    len: usize,
+    // 32 bits each: a Get of all outputs walks over many of them.
+    offset: u32,
+    stride: u32,
+    len: u32,
     stored: Stored,
     holder: PhantomData<fn(&M) -> V>,
 }
@@ -173,6 +174,12 @@ impl<L: Leaf, const N: usize> Leaf for [L; N] {
     const STORED: Stored = L::STORED;
 }
 
+/// A size in a struct that is itself smaller than 4 GB.
+const fn narrow(size: usize) -> u32 {
+    assert!(size <= u32::MAX as usize, "a struct is smaller than 4 GB");
+    size as u32
+}
+
 /// The place of the field that `field` borrows, `offset` bytes from the begin of `M`. For the macros and the derive, which
 /// make both from one path.
 #[doc(hidden)]
@@ -180,9 +187,9 @@ pub const fn of_field<M, L: Leaf>(offset: usize, field: fn(&M) -> &L) -> Place<M
     let _ = field;
     assert!(L::LEN > 0, "a row has a value");
     Place {
-        offset,
-        stride: L::STRIDE,
-        len: L::LEN,
+        offset: narrow(offset),
+        stride: narrow(L::STRIDE),
+        len: narrow(L::LEN),
         stored: L::STORED,
         holder: PhantomData,
     }
@@ -197,9 +204,9 @@ pub const fn of_word<M, L: Leaf<Value = i32>>(
     let _ = field;
     assert!(L::LEN > 0, "a row has a value");
     Place {
-        offset,
-        stride: L::STRIDE,
-        len: L::LEN,
+        offset: narrow(offset),
+        stride: narrow(L::STRIDE),
+        len: narrow(L::LEN),
         stored: Stored::Word,
         holder: PhantomData,
     }
@@ -209,7 +216,7 @@ impl<S, V> Place<S, V> {
     /// The place in `M`, of which the struct `S` is a part that `part` borrows, at `offset`.
     pub(crate) const fn within<M>(self, offset: usize) -> Place<M, V> {
         Place {
-            offset: offset + self.offset,
+            offset: narrow(offset + self.offset as usize),
             stride: self.stride,
             len: self.len,
             stored: self.stored,
@@ -224,8 +231,8 @@ impl<S, V> Place<S, V> {
             "each element of an array shows single values"
         );
         Self {
-            stride: size_of::<S>(),
-            len: n,
+            stride: narrow(size_of::<S>()),
+            len: narrow(n),
             ..self
         }
     }
@@ -243,7 +250,7 @@ impl<M, V> Place<M, V> {
 
     /// How many values there are.
     pub const fn len(&self) -> usize {
-        self.len
+        self.len as usize
     }
 
     /// Never: a row has a value.
@@ -253,13 +260,14 @@ impl<M, V> Place<M, V> {
 
     /// Distance of element `i` from the begin of `M`, bytes; in range for every `i`.
     const fn offset_of(&self, i: usize) -> usize {
-        self.offset + self.stride * if i < self.len { i } else { self.len - 1 }
+        let last = self.len as usize - 1;
+        self.offset as usize + self.stride as usize * if i < last { i } else { last }
     }
 
     /// Bytes from the begin of `M` to the first value, from one value to the next, and in what type they are stored: for
     /// programs in C.
     pub const fn layout(&self) -> (usize, usize, Stored) {
-        (self.offset, self.stride, self.stored)
+        (self.offset as usize, self.stride as usize, self.stored)
     }
 }
 
@@ -273,6 +281,15 @@ impl<M, V: Value> Place<M, V> {
         unsafe { V::read(begin.add(self.offset_of(i)), self.stored) }
     }
 
+    /// The value of element `i`, from 0; none where there are fewer.
+    #[inline]
+    pub fn find(&self, model: &M, i: u32) -> Option<V> {
+        let begin = core::ptr::from_ref(model).cast::<u8>();
+        let at = self.offset as usize + self.stride as usize * i as usize;
+        // SAFETY: as in `get`: there is an element `i`.
+        (i < self.len).then(|| unsafe { V::read(begin.add(at), self.stored) })
+    }
+
     /// Gives element `i`, from 0, another value. The last one where there are fewer.
     #[inline]
     pub fn set(&self, model: &mut M, i: usize, value: V) {
@@ -283,7 +300,7 @@ impl<M, V: Value> Place<M, V> {
 
     /// All values, in order.
     pub fn values<'a>(&'a self, model: &'a M) -> impl Iterator<Item = V> + use<'a, M, V> {
-        (0..self.len).map(move |i| self.get(model, i))
+        (0..self.len()).map(move |i| self.get(model, i))
     }
 }
 
@@ -292,8 +309,23 @@ impl<M> Place<M, f64> {
     #[inline]
     pub fn are_finite(&self, model: &M) -> bool {
         // Without a branch for each value: this runs over all outputs at every step.
-        self.values(model)
-            .fold(true, |all, value| all & value.is_finite())
+        match self.slice(model) {
+            Some(values) => are_finite(values),
+            None => self
+                .values(model)
+                .fold(true, |all, value| all & value.is_finite()),
+        }
+    }
+
+    /// All values, where they lie side by side as they are.
+    #[inline]
+    fn slice<'a>(&self, model: &'a M) -> Option<&'a [f64]> {
+        let adjoin = self.stride as usize == size_of::<f64>() && self.stored == Stored::AsIs;
+        let begin = core::ptr::from_ref(model).cast::<u8>();
+        // SAFETY: as in `get`: `len` values of type f64, 8 bytes apart, in `model`, which is borrowed as a whole.
+        adjoin.then(|| unsafe {
+            core::slice::from_raw_parts(begin.add(self.offset as usize).cast(), self.len())
+        })
     }
 
     /// This place and `next` as one, if `next` begins where this one ends and both are stored alike.
@@ -305,6 +337,18 @@ impl<M> Place<M, f64> {
             ..*self
         })
     }
+}
+
+/// Whether all `values` are finite: an exponent of ones, and 1 added to it, reaches the sign, which was taken off. In integers,
+/// several at once.
+#[inline]
+fn are_finite(values: &[f64]) -> bool {
+    const SIGN: u64 = 1 << 63;
+    const EXPONENT_1: u64 = 1 << (f64::MANTISSA_DIGITS - 1);
+    let seen = values.iter().fold(0, |seen, value| {
+        seen | ((value.to_bits() & !SIGN) + EXPONENT_1)
+    });
+    seen & SIGN == 0
 }
 
 impl<M> Place<M, bool> {
@@ -320,6 +364,34 @@ impl<M> Place<M, bool> {
             }
             .get(model, i),
             Stored::AsIs | Stored::Single => i32::from(self.get(model, i)),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::are_finite;
+
+    #[test]
+    fn one_number_that_is_not_finite_is_found_among_many() {
+        let finite = [
+            0.0,
+            -0.0,
+            f64::MAX,
+            f64::MIN,
+            f64::MIN_POSITIVE,
+            -5e-324,
+            1.0,
+            -3.5,
+            1e308,
+        ];
+        assert!(are_finite(&finite) && are_finite(&[]));
+        for wrong in [f64::NAN, -f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+            for i in 0..finite.len() {
+                let mut values = finite;
+                values[i] = wrong;
+                assert!(!are_finite(&values), "{wrong} at {i}");
+            }
         }
     }
 }

@@ -15,6 +15,11 @@ pub trait Value: fmu_declaration::Value {
     /// What is wrong with the value, if anything.
     fn objection<M>(&self, row: &Variable<M>) -> Option<String>;
 
+    /// The value as a number, if it is one that a row may bound.
+    fn number(&self) -> Option<f64> {
+        None
+    }
+
     /// A constant text as a value, if this is the type for texts.
     fn of_text(_: &'static str) -> Option<Self> {
         None
@@ -41,6 +46,11 @@ impl Value for f64 {
     fn of_time(time: f64) -> Option<Self> {
         Some(time)
     }
+
+    #[inline]
+    fn number(&self) -> Option<f64> {
+        Some(*self)
+    }
 }
 
 #[cold]
@@ -65,6 +75,11 @@ impl Value for i32 {
             _ => None,
         }
     }
+
+    #[inline]
+    fn number(&self) -> Option<f64> {
+        Some((*self).into())
+    }
 }
 
 #[cold]
@@ -84,6 +99,11 @@ fn no_item(value: i64, of: &Enumeration) -> String {
 impl Value for bool {
     fn objection<M>(&self, _: &Variable<M>) -> Option<String> {
         None
+    }
+
+    #[inline]
+    fn number(&self) -> Option<f64> {
+        Some((*self).into())
     }
 }
 
@@ -281,6 +301,11 @@ impl<M: Model> Instance<M> {
         let mut next = 0;
         for (i, &reference) in references.iter().enumerate() {
             let first = if K::SCALAR { i } else { next };
+            if let Some(value) = self.quick::<K>(reference) {
+                put(first, value);
+                next = first + 1;
+                continue;
+            }
             let Some((row, element)) = find::<K, M>(reference) else {
                 put(first, self.without_row::<K>(reference)?);
                 next = first + 1;
@@ -305,6 +330,9 @@ impl<M: Model> Instance<M> {
         references: &[ValueReference],
         value: impl Fn(usize) -> Result<K::Value, E>,
     ) -> Outcome {
+        if self.set_inputs::<K, E>(references, &value) {
+            return Ok(());
+        }
         let phase = self.now.phase;
         let mut tuned = false;
         let mut next = 0;

@@ -6,6 +6,7 @@ use crate::legality::{Interface, Phase};
 use crate::log::{self, Category, Enabled, Log, Sink};
 use crate::model::Model;
 use crate::outputs::Outputs;
+use crate::slots::Slots;
 use crate::snapshot::Snapshot;
 use crate::stop::StopTime;
 use std::ffi::{CStr, CString};
@@ -24,6 +25,7 @@ pub struct Instance<M: Model> {
     /// In Initialization Mode: something was set since the model was last initialized.
     pub(crate) stale: bool,
     outputs: Outputs<M>,
+    pub(crate) slots: Slots<M>,
     /// Strings handed to the importer, alive until its next call.
     pub(crate) strings: Vec<CString>,
 }
@@ -52,6 +54,7 @@ impl<M: Model> Instance<M> {
             now,
             stale: false,
             outputs: Outputs::new(),
+            slots: Slots::new(),
             strings: Vec::new(),
         };
         instance.now.model.located(instance.resources.as_deref());

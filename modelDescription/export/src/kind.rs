@@ -3,6 +3,7 @@
 //! FMI 2.0 has a value reference for each scalar, FMI 3.0 one for each row, which is that of its first element.
 
 use crate::access::Value;
+use crate::slots::At;
 use fmu_declaration::{Access, Place, Variable};
 
 /// The value reference of the clock that FMI 3.0's scheduled execution has; it has no row.
@@ -22,6 +23,11 @@ pub trait Kind {
 
     /// Where the row's values are, if the row is of this type.
     fn at<M>(access: &Access<M>) -> Option<&Place<M, Self::Value>>;
+
+    /// The same of a slot; none where this type has no slots.
+    fn quick<M>(_: &At<M>) -> Option<&Place<M, Self::Value>> {
+        None
+    }
 
     /// Calls `visit(element, i)` for each element that a value reference stands for, where `element` is the one that FMI 2.0
     /// finds, and `first` the number of its value among all of the call, until one gives something.
@@ -47,7 +53,7 @@ pub trait Kind {
 }
 
 macro_rules! kind {
-    ($(#[$doc:meta])* $name:ident, $standard:literal, scalar $scalar:literal, $value:ty, $row:pat => $at:expr) => {
+    ($(#[$doc:meta])* $name:ident, $standard:literal, scalar $scalar:literal, $value:ty, $row:pat => $at:expr $(, in $slot:ident)?) => {
         $(#[$doc])*
         #[derive(Clone, Copy, Debug)]
         pub struct $name;
@@ -64,6 +70,16 @@ macro_rules! kind {
                     _ => None,
                 }
             }
+
+            $(
+                #[inline]
+                fn quick<M>(at: &At<M>) -> Option<&Place<M, $value>> {
+                    match at {
+                        At::$slot(at) => Some(at),
+                        _ => None,
+                    }
+                }
+            )?
         }
     };
 }
@@ -71,11 +87,11 @@ macro_rules! kind {
 /// The types of FMI 2.0. An enumeration's items are Integers.
 #[rustfmt::skip]
 pub mod fmi2 {
-    use super::{Access, Kind, Place};
+    use super::{Access, At, Kind, Place};
 
-    kind! { /** fmi2Real */ Real, "Real", scalar true, f64, Access::Real { at, .. } => Some(at) }
-    kind! { /** fmi2Integer */ Integer, "Integer", scalar true, i32, Access::Integer { at, .. } | Access::Enumeration { at, .. } => Some(at) }
-    kind! { /** fmi2Boolean */ Boolean, "Boolean", scalar true, bool, Access::Boolean { at } => Some(at) }
+    kind! { /** fmi2Real */ Real, "Real", scalar true, f64, Access::Real { at, .. } => Some(at), in Real }
+    kind! { /** fmi2Integer */ Integer, "Integer", scalar true, i32, Access::Integer { at, .. } | Access::Enumeration { at, .. } => Some(at), in Whole }
+    kind! { /** fmi2Boolean */ Boolean, "Boolean", scalar true, bool, Access::Boolean { at } => Some(at), in Flag }
     kind! { /** fmi2String */ Text, "String", scalar true, String, Access::String { at } => Some(at) }
 }
 

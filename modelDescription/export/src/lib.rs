@@ -64,6 +64,7 @@ mod outputs;
 pub mod provenance;
 pub mod resource;
 pub mod sampler;
+mod slots;
 pub mod snapshot;
 mod stop;
 mod symbols;
