@@ -47,6 +47,17 @@ long raw_loop(struct fmu *controller, struct fmu *plant, size_t q_in, size_t q_o
     return -1;
 }
 
+/* One FMU by itself: each row of inputs is set, each row of outputs taken. Returns the step that failed, or -1. */
+long alone(struct fmu *f, size_t steps, double h) {
+    for (size_t k = 0; k < steps; k++) {
+        if (f->inputs_count && f->set_real(f->instance, f->inputs, f->inputs_count, f->input_rows + k * f->inputs_count))
+            return (long)k;
+        if (f->do_step(f->instance, (double)k * h, h, 1)) return (long)k;
+        if (recorded(f, k + 1)) return (long)k;
+    }
+    return -1;
+}
+
 int empty_transfer(void *instance, const uint32_t *references, size_t count, void *values) {
     (void)instance, (void)references, (void)count, (void)values;
     return 0;
