@@ -70,8 +70,8 @@ def alone(library: CDLL, part: Part, steps: int, step: float) -> float:
     return took
 
 
-def pair(library: CDLL, coupled: Coupled, steps: int, step: float) -> float:
-    """Processor seconds of the testbed's pair in a loop by hand, over instances that are just initialized."""
+def pair(library: CDLL, coupled: Coupled, steps: int, step: float, *, first: int = 0) -> float:
+    """Processor seconds of the testbed's pair in a loop by hand, over instances that stand at step `first`."""
     controller, plant = (coupled._parts[name] for name in ("controller", "plant"))
     structs = struct_of(controller), struct_of(plant)
     columns = (
@@ -82,9 +82,9 @@ def pair(library: CDLL, coupled: Coupled, steps: int, step: float) -> float:
     )
     run = library.raw_loop
     run.restype = c_long
-    run.argtypes = [POINTER(Fmu), POINTER(Fmu), *[c_size_t] * 5, c_double]
+    run.argtypes = [POINTER(Fmu), POINTER(Fmu), *[c_size_t] * 6, c_double]
     began = thread_time()
-    failed = run(byref(structs[0]), byref(structs[1]), *columns, steps, step)
+    failed = run(byref(structs[0]), byref(structs[1]), *columns, first, steps, step)
     took = thread_time() - began
     assert failed == -1, failed
     return took

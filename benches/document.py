@@ -10,9 +10,9 @@ INTRODUCTION = """# Benchmarks
 
 Made by `cargo xtask bench --write`; `cargo xtask bench` prints the same. Each ratio comes from one run on one machine:
 what is compared takes turns, round by round, on one core where the system allows it; the median of the rounds'
-ratios counts. So ratios stand what else the machine does; times less so. A ratio that misses its limit does not fail the
-command, because a clock decides; counted instructions do (`tests/abi/instructions.json`). A name reads "ours / theirs":
-a ratio of 1/5 is a fifth of their time.
+ratios counts. So ratios stand what else the machine does; times less so. A ratio that misses its limit does not fail
+the command, because a clock decides; counted instructions do (`tests/abi/instructions.json`). A name reads "ours /
+theirs": a ratio of 1/5 is a fifth of their time.
 """
 
 PICTURE = "![Each figure in units of its limit: bars that end before 1 meet it](benchmarks.png)"

@@ -101,7 +101,7 @@ def archives(bench: Bench, folder: Path) -> None:
         with zipfile.ZipFile(path) as archive:
             root = ElementTree.fromstring(archive.read("modelDescription.xml"))
         identifier = described(root, path.name)
-        with zipfile.ZipFile(folder / path.name, "w") as archive:
+        with zipfile.ZipFile(folder / path.name, "w", zipfile.ZIP_DEFLATED) as archive:
             archive.writestr("modelDescription.xml", ElementTree.tostring(root, encoding="UTF-8", xml_declaration=True))
             archive.write(library, f"binaries/{fmpy.platform}/{identifier}{fmpy.sharedLibraryExtension}")
 

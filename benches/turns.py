@@ -45,9 +45,9 @@ def quarters(values: list[float]) -> tuple[float, float]:
     return ordered[len(ordered) // 4], ordered[-1 - len(ordered) // 4]
 
 
-def in_turns(work: Mapping[str, Callable[[], float]], rounds: int) -> Times:
+def in_turns(work: Mapping[str, Callable[[], float]], rounds: int, *, warm_up: bool = True) -> Times:
     """Each does its work once a round and says how many seconds it took. One round before warms up."""
-    for once in work.values():
+    for once in work.values() if warm_up else ():
         once()
     seconds: dict[str, list[float]] = {name: [] for name in work}
     names = list(work)
