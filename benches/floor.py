@@ -5,13 +5,14 @@ inputs that the FMU got in a scenario are set, a step is made, all outputs are g
 """
 
 import zipfile
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import ExitStack
 from dataclasses import replace
 from pathlib import Path
 from xml.etree import ElementTree
 
 import fmpy
+import numpy as np
 
 from benches import c_loop, native
 from benches.row import Bench, Found, Row
@@ -29,6 +30,8 @@ MOVING = (
     ("arm_payload", "passive_bounded_25kg", ("controller", "plant", "operator"), 10_000),
     ("arm_both", "equal", ("plant",), 5000),
 )
+#: The exporter's own example.
+SMALLEST = "test/integrator.fmu"
 #: How often the floor does its work, which is over soon, in a round.
 AGAIN = 10
 #: `MOST` of floor.c.
@@ -53,33 +56,63 @@ def measure(bench: Bench) -> Iterator[Found]:
             for component in components:
                 bottom = stack.enter_context(Archive(bench.work / "floors" / plan.components[component]))
                 yield _row(bench, plan, coupled, component, bottom)
+    with ExitStack() as stack:
+        yield _smallest(bench, stack)
 
 
 def _row(bench: Bench, plan: Plan, coupled: Coupled, component: str, archive: Archive) -> Found:
     """The component with the inputs that it has just got, beside its floor."""
-    library, part = c_loop.load(bench), coupled._parts[component]
+    part = coupled._parts[component]
     inputs = {kind: rows.copy() for kind, rows in part.u.items()}
+
+    def start() -> None:
+        coupled.start(plan)
+        for kind, rows in inputs.items():
+            part.u[kind][:] = rows
+
+    return _compared(bench, part, archive, steps=plan.steps, step=plan.step, start=start)
+
+
+def _smallest(bench: Bench, stack: ExitStack) -> Found:
+    """The exporter's smallest FMU, an integrator of one addition: what the exporter itself adds to a call."""
+    steps, step = 10_000, 0.01
+    archive = stack.enter_context(Archive(bench.fmu_dir / SMALLEST))
+    bottom = stack.enter_context(Archive(bench.work / "floors" / Path(SMALLEST).name))
+    part = Part(stack.enter_context(Instance(archive, "smallest")), inputs=["u"], outputs=["y"], steps=steps)
+    part.u["Real"][:, 0] = np.sin(np.arange(steps) * step)
+
+    def start() -> None:
+        part.instance.reset()
+        part.instance.setup_experiment(start_time=0.0, stop_time=steps * step)
+        part.instance.enter_initialization_mode()
+        part.instance.exit_initialization_mode()
+
+    return _compared(bench, part, bottom, steps=steps, step=step, start=start)
+
+
+def _compared(
+    bench: Bench, part: Part, archive: Archive, *, steps: int, step: float, start: Callable[[], None]
+) -> Found:
+    library = c_loop.load(bench)
     with Instance(archive, "floor") as instance:
-        bottom = _floor(instance, part, plan.steps)
+        bottom = _floor(instance, part, steps)
 
         def ours() -> float:
-            coupled.start(plan)
-            for kind, rows in inputs.items():
-                part.u[kind][:] = rows
-            return c_loop.alone(library, part, plan.steps, plan.step)
+            start()
+            return c_loop.alone(library, part, steps, step)
 
         def floor() -> float:
-            return sum(c_loop.alone(library, bottom, plan.steps, plan.step) for _ in range(AGAIN)) / AGAIN
+            return sum(c_loop.alone(library, bottom, steps, step) for _ in range(AGAIN)) / AGAIN
 
         with pinned():
             times = in_turns({"ours": ours, "floor": floor}, bench.rounds)
-    ns = {what: 1e9 * times.median(what) / plan.steps for what in ("ours", "floor")}
+    ns = {what: 1e9 * times.median(what) / steps for what in ("ours", "floor")}
     given, taken = (sum(refs.count for refs in all_of.values()) for all_of in (part.inputs, part.outputs))
     return Row(
-        name=f"{archive.path.stem}: set + step + get / FMI floor",
+        name=f"{part.instance.archive.description.modelName}: set + step + get / FMI floor",
         value=times.ratio("ours", "floor"),
         spread=times.spread("ours", "floor"),
-        told=f"{ns['ours']:,.0f} ns / {ns['floor']:,.0f} ns; {given} inputs, {taken} outputs, step {plan.step:g} s",
+        told=f"{ns['ours']:,.0f} ns / {ns['floor']:,.0f} ns; inputs {given}, outputs {taken}, step {step:g} s",
     )
 
 
@@ -97,7 +130,7 @@ def archives(bench: Bench, folder: Path) -> None:
     """Writes the floor's archive of each FMU, under the FMU's name."""
     folder.mkdir(parents=True, exist_ok=True)
     library = native.library(bench, "floor")
-    for path in sorted(bench.fmu_dir.glob("*.fmu")):
+    for path in (*sorted(bench.fmu_dir.glob("*.fmu")), bench.fmu_dir / SMALLEST):
         with zipfile.ZipFile(path) as archive:
             root = ElementTree.fromstring(archive.read("modelDescription.xml"))
         identifier = described(root, path.name)
