@@ -112,7 +112,7 @@ def measure(bench: Bench) -> Iterator[Found]:
     )
     shares = [share * RUN_S / STEP / STEPS for share in times.ratios("raw", "sweep")]
     yield Row(
-        name="a run of a sweep on one core, as a share of the raw C loop's",
+        name="batch on one core, runs an hour / raw C loop",
         value=median(shares),
         spread=quarters(shares),
         limit=0.8,

@@ -34,17 +34,15 @@ def draw(rows: Sequence[Row], path: Path) -> None:
             va="center",
             fontsize=8,
         )
-    axes.axvline(1.0, **MARK)
-    axes.set_yticks(range(len(judged)), [row.name for row in judged], fontsize=8)
-    axes.invert_yaxis()
-    largest = max([1.0, *(row.share for row in judged)])
-    axes.set_xlim(0.0, 1.75 * largest)
-    axes.set_xlabel(
-        "in units of the limit: a bar that ends left of the dashed line meets it; the black tick is the aim"
-    )
+    axes.axvline(1.0, **MARK, label="limit")
+    axes.plot([], [], color=BLACK, linewidth=2.0, label="aim")
     for name, color in COLORS.items():
         axes.barh(0, 0.0, color=color, label=name.lower())
-    axes.legend(loc="lower right", fontsize=8, frameon=True)
+    axes.set_yticks(range(len(judged)), [row.name for row in judged], fontsize=8)
+    axes.set_ylim(len(judged) - 0.4, -0.6)
+    axes.set_xlim(0.0, 1.75 * max([1.0, *(row.share for row in judged)]))
+    axes.set_xlabel("in units of the limit: shorter is better", fontsize=9)
+    figure.legend(loc="outside upper center", ncols=5, fontsize=8, frameon=False)
     for side in ("top", "right"):
         axes.spines[side].set_visible(False)
     figure.savefig(path, dpi=110, metadata={"Software": None})

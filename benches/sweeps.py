@@ -66,7 +66,7 @@ def measure(bench: Bench) -> Iterator[Found]:
         times = in_turns(work, rounds, warm_up=False)
     shares = times.ratios("raw", "all cores")
     yield Row(
-        name=f"sweep on {all_cores} cores, runs an hour as a share of the raw C loop's on {all_cores} threads",
+        name=f"sweep on {all_cores} cores, runs an hour / raw C loop on {all_cores} threads",
         value=median(shares),
         spread=quarters(shares),
         limit=0.8,
