@@ -50,7 +50,7 @@ def measure(bench: Bench) -> Iterator[Found]:
         yield Row(
             name=f"an instance again, FMI 3.0 / FMI 2.0, the largest of {len(again)}",
             value=again[name],
-            told=f"{name}: {found[f'fmi3/{name}'][4]:.1f} µs / {found[name][4]:.1f} µs",
+            told=f"{name}: {1e3 * found[f'fmi3/{name}'][4]:.0f} ns / {1e3 * found[name][4]:.0f} ns",
         )
     yield Sheet(
         title="How long an FMU takes to live",
