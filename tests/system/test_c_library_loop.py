@@ -31,7 +31,7 @@ CASES = {
     "arm_contact": "passive_*",
     "arm_servo": "table_*1",
 }
-#: Of each, at least; those of the testbed run to their end.
+#: By step, at most; cases of the testbed run to their end.
 STEPS = {0.001: 2000, 0.002: 30_000}
 #: What the library does not have, and the harness' own inputs of it: docs/real-time.md, "Not in the library".
 WITHOUT = {"tick", "sample_period", "gain_warning", "M_min", "M_n[1]", "M_n[2]", "M_n[3]"}
@@ -50,7 +50,7 @@ def double(fmu_dir: Path) -> Iterator[dict[str, Archive]]:
 
 
 def beside(name: str, case: str, archives: Any, library: Any, **changes: Any) -> tuple[Recording, Recording]:
-    """A case with the FMU and with the library. What the library lacks is neither set nor wired."""
+    """A case with the FMU and with the library, by the same engine."""
     scenario = load(name)
     plan = simulate.plan(scenario=scenario, case=next(one for one in scenario.cases if one.id == case))
     plan = replace(plan, **{"duration": min(plan.duration, STEPS[plan.step] * plan.step), **changes})
