@@ -20,7 +20,7 @@ from exo.scenario import load
 
 from commands import SHORT, exo
 
-#: What presses, lifts, saturates, faults, is tuned on the way, commands drives, couples late: all cases of them.
+#: What presses, lifts, saturates, faults, is tuned on the way, commands drives, couples late: cases by pattern.
 CASES = {
     "wall": "*_5_0.5",
     "live_tuning": "*",
