@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from exo import simulate
+from exo import master
 from exo.fmu import Archive
 from exo.loop import fastest
 from exo.recording import Recording
@@ -52,12 +52,12 @@ class Case:
 def recorded(scenario: str, case: str, fmu_dir: Path, **parameters: Any) -> tuple[Recording, Case]:
     """Runs a case of a scenario, with other `parameters`, `component__name`, if there are any."""
     loaded = load(scenario)
-    plan = simulate.plan(scenario=loaded, case=next(one for one in loaded.cases if one.id == case))
+    plan = master.plan(scenario=loaded, case=next(one for one in loaded.cases if one.id == case))
     others = {name.replace("__", "."): value for name, value in parameters.items()}
     plan = replace(plan, parameters={**plan.parameters, **others})
     with ExitStack() as stack:
         archives = {name: stack.enter_context(Archive(fmu_dir / name)) for name in set(plan.components.values())}
-        run = simulate.simulate(plan=plan, archives=archives, engine=fastest())
+        run = master.simulate(plan=plan, archives=archives, engine=fastest())
     zeros = np.zeros(len(run.time))
 
     def rows(component: str, names: tuple[str, ...]) -> NDArray[np.float64]:

@@ -28,11 +28,12 @@ static int recorded(struct fmu *f, size_t row) {
 }
 
 /* Controller, then plant: q of the last step goes to the controller, tau_a of this one to the plant. `q_in`, `tau_in` are the
- * columns among the inputs, `q_out`, `tau_out` among the recorded reals. Returns the step that failed, or -1. */
+ * columns among the inputs, `q_out`, `tau_out` among the recorded reals; the clock stands at step `first`. Returns the step
+ * that failed, or -1. */
 long raw_loop(struct fmu *controller, struct fmu *plant, size_t q_in, size_t q_out, size_t tau_in, size_t tau_out,
-              size_t steps, double h) {
+              size_t first, size_t steps, double h) {
     for (size_t k = 0; k < steps; k++) {
-        double t = (double)k * h;
+        double t = (double)(first + k) * h;
         double *u = controller->input_rows + k * controller->inputs_count;
         u[q_in] = plant->real_rows[k * plant->reals_count + q_out];
         if (controller->set_real(controller->instance, controller->inputs, controller->inputs_count, u)) return (long)k;
@@ -43,6 +44,17 @@ long raw_loop(struct fmu *controller, struct fmu *plant, size_t q_in, size_t q_o
         if (plant->set_real(plant->instance, plant->inputs, plant->inputs_count, v)) return (long)k;
         if (plant->do_step(plant->instance, t, h, 1)) return (long)k;
         if (recorded(plant, k + 1)) return (long)k;
+    }
+    return -1;
+}
+
+/* One FMU by itself: each row of inputs is set, each row of outputs taken. Returns the step that failed, or -1. */
+long alone(struct fmu *f, size_t steps, double h) {
+    for (size_t k = 0; k < steps; k++) {
+        if (f->inputs_count && f->set_real(f->instance, f->inputs, f->inputs_count, f->input_rows + k * f->inputs_count))
+            return (long)k;
+        if (f->do_step(f->instance, (double)k * h, h, 1)) return (long)k;
+        if (recorded(f, k + 1)) return (long)k;
     }
     return -1;
 }

@@ -1,7 +1,7 @@
-"""Controller and arm beside the same arithmetic in C: `python benches/same_arithmetic.py`, in `cargo xtask bench`.
+"""Controller and arm beside the same arithmetic in C.
 
 The inputs are those of the scenario arm_payload, recorded: the pad lands, presses, grips, comes off the table, carries,
-sets down. All sides get them in turns, and the smallest time of each counts. That they compute the same is what
+sets down. That they compute the same is what
 `tests/system/test_same_arithmetic.py` shows, bit for bit.
 
 | side | what is measured |
@@ -14,29 +14,26 @@ The second column is instructions, counted by callgrind: it knows no noise, and 
 """
 
 import pickle
-import platform
 import re
 import subprocess
 import sys
-import tempfile
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from contextlib import ExitStack
 from ctypes import CDLL, Structure, byref, c_double, c_long, c_size_t, c_void_p, cast
 from dataclasses import dataclass, field
 from pathlib import Path
 from shutil import which
-from time import perf_counter
+from time import thread_time
 
 import numpy as np
 from numpy.typing import NDArray
 
-from engines import Row
+from benches.in_c import FORCES, SENSED, Case, InC, compiled, recorded
+from benches.row import Bench, Found, NotRun, Row
+from benches.turns import in_turns, pinned
 from exo.fmu import DTYPES, Archive, Instance, find_fmu_dir
-from exo.manifest import processor
-from in_c import FORCES, SENSED, Case, InC, compiled, recorded
 
 SCENARIO, CASE = "arm_payload", "passive_bounded_17.5kg"
-REPETITIONS = 7
 #: Steps that callgrind counts, after those that nobody counts: the lift.
 COUNTED = range(7_000, 8_000)
 #: Outputs that wires take.
@@ -134,16 +131,12 @@ def sides(stack: ExitStack, library: CDLL, fmu_dir: Path, case: Case) -> dict[st
     return found | {"law C": in_c(library, "law", case), "arm C": in_c(library, "plant", case)}
 
 
-def timed(all_sides: dict[str, Side], steps: int) -> dict[str, float]:
-    """Nanoseconds a step of each, the smallest of some turns."""
-    times: dict[str, list[float]] = {name: [] for name in all_sides}
-    for _ in range(REPETITIONS):
-        for name, side in all_sides.items():
-            side.start()
-            began = perf_counter()
-            side.advance(0, steps)
-            times[name].append(perf_counter() - began)
-    return {name: 1e9 * min(found) / steps for name, found in times.items()}
+def once(side: Side, steps: int) -> float:
+    """Processor seconds of a run from its start."""
+    side.start()
+    began = thread_time()
+    side.advance(0, steps)
+    return thread_time() - began
 
 
 def play_counted(folder: Path) -> None:
@@ -163,13 +156,14 @@ def play_counted(folder: Path) -> None:
 def counted(folder: Path, case: Case) -> dict[str, float]:
     """Instructions a step of each; none without valgrind."""
     if which("valgrind") is None:
-        print("NOT RUN: instructions; valgrind is missing")
         return {}
     (folder / "case").write_bytes(pickle.dumps(case))
     out = folder / "counts"
     tool = ["valgrind", "--quiet", "--tool=callgrind", "--instr-atstart=no", f"--callgrind-out-file={out}"]
-    command = [*tool, sys.executable, __file__, "--counted", str(folder)]
-    names = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True, check=True).stdout
+    command = [*tool, sys.executable, "-m", "benches.same_arithmetic", "--counted", str(folder)]
+    names = subprocess.run(
+        command, cwd=Path(__file__).parents[1], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True, check=True
+    ).stdout
     found: dict[str, float] = {}
     for i, name in enumerate(names.splitlines(), start=1):
         total = re.search(r"^totals: (\d+)", (folder / f"counts.{i}").read_text(), re.MULTILINE)
@@ -177,40 +171,41 @@ def counted(folder: Path, case: Case) -> dict[str, float]:
     return found
 
 
-def measured(fmu_dir: Path, folder: Path) -> list[Row]:
-    """All rows: ratios of times, and of instructions where they can be counted."""
-    library = compiled(folder)
-    _, case = recorded(SCENARIO, CASE, fmu_dir)
-    with ExitStack() as stack:
-        took = timed(sides(stack, library, fmu_dir, case), len(case.sensed))
-    instructions = counted(folder, case)
-    for name, time in took.items():
-        count = f"{instructions[name]:9,.0f} instructions" if name in instructions else ""
-        print(f"{name:24} {time:9,.0f} ns a step {count}")
-    rows = []
+def measure(bench: Bench) -> Iterator[Found]:
+    """The rows: ratios of times, and of instructions where they can be counted."""
+    library = compiled(bench.work)
+    _, case = recorded(SCENARIO, CASE, bench.fmu_dir)
+    steps = len(case.sensed)
+    with ExitStack() as stack, pinned():
+        work = {
+            name: lambda side=side: once(side, steps)  # type: ignore[misc]
+            for name, side in sides(stack, library, bench.fmu_dir, case).items()
+        }
+        times = in_turns(work, bench.rounds)
+    instructions = counted(bench.work, case)
+    if not instructions:
+        yield NotRun(name="instructions beside the same arithmetic in C", reason="valgrind is not on PATH")
     for name, what in (("law", "ArmController cycle / C law"), ("arm", "ExoskeletonArm step / C arm")):
-        for unit, values in (("", took), (", instructions", instructions)):
-            for shown in ("", ", all outputs"):
-                if values:
-                    ratio = values[f"{name} FMU{shown}"] / values[f"{name} C"]
-                    rows.append(Row(f"{what}{shown}{unit}", ratio, *BOUNDS))
-    return rows
+        for shown in ("", ", all outputs"):
+            ours, theirs = f"{name} FMU{shown}", f"{name} C"
+            ns = [1e9 * times.median(one) / steps for one in (ours, theirs)]
+            yield Row(
+                name=f"{what}{shown}",
+                value=times.ratio(ours, theirs),
+                spread=times.spread(ours, theirs),
+                limit=BOUNDS[0],
+                aim=BOUNDS[1],
+                told=f"{ns[0]:,.0f} ns / {ns[1]:,.0f} ns",
+            )
+            if instructions:
+                yield Row(
+                    name=f"{what}{shown}, instructions",
+                    value=instructions[ours] / instructions[theirs],
+                    limit=BOUNDS[0],
+                    aim=BOUNDS[1],
+                    told=f"{instructions[ours]:,.0f} / {instructions[theirs]:,.0f}",
+                )
 
 
-def main() -> None:
-    """Prints the table; exit code 1, if a figure is not what is asked for."""
-    if sys.argv[1:2] == ["--counted"]:
-        return play_counted(Path(sys.argv[2]))
-    with tempfile.TemporaryDirectory() as folder:
-        rows = measured(find_fmu_dir().resolve(), Path(folder))
-    print(f"{platform.machine()}, {processor()}")
-    for row in rows:
-        told = f"{row.name:56} {row.value:8.3f}  at most {row.asked:.3g}, aim {row.aimed:.3g}"
-        print(told if row.good else f"{told}  MISSED")
-    if not all(row.good for row in rows):
-        raise SystemExit(1)
-    return None
-
-
-if __name__ == "__main__":
-    main()
+if __name__ == "__main__" and sys.argv[1:2] == ["--counted"]:
+    play_counted(Path(sys.argv[2]))

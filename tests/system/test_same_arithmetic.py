@@ -2,21 +2,16 @@
 
 They are a second derivation besides: written from the equations, without Rust, on another compiler."""
 
-import sys
 from collections.abc import Callable
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+from benches.in_c import InC, compiled, recorded
 from numpy.typing import NDArray
 
 from exo.fmu import find_fmu_dir
 from exo.recording import Recording
-
-sys.path.append(str(Path(__file__).parents[2] / "benches"))
-
-from in_c import InC, compiled, recorded
 
 
 def pressed_stuck_and_carried(run: Recording) -> bool:

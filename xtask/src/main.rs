@@ -13,7 +13,7 @@
 //! | `cargo xtask adversary --minutes N` | attacks on the energy tank | what breaks it, in `tests/adversary/regressions.txt` |
 //! | `cargo xtask fuzz [--calls N] [--seed S] [--fmu NAME]` | random calls on the built FMUs | a failing sequence, printed |
 //! | `cargo xtask law [--prefix DIR]` | the C library | `target/law/{f64,f32}`, and an installation in DIR |
-//! | `cargo xtask bench` | how fast the FMUs and the harness are | |
+//! | `cargo xtask bench` | how fast the FMUs and the harness are, as ratios | with `--write` `docs/benchmarks.md` |
 //! | `cargo xtask native` | the harness' native engine, `exo run --engine native` | a wheel in `target/wheels`, installed into `.venv` |
 //! | `cargo xtask site` | the documentation as a site | `target/site/index.html` |
 //! | `cargo xtask venv [--tests]` | the Python environment of the others | `.venv` |
@@ -120,8 +120,11 @@ enum Command {
     },
     /// Play random calls on the FMUs in target/fmu; what fails is shortened and printed with how to play it again
     Fuzz(fuzz::Request),
-    /// Measure: instructions per call (callgrind), FMU calls (cargo bench), harness loop
+    /// Measure, and print one table of ratios: FMUs, engines, sweeps beside their peers; no time fails it
     Bench {
+        /// Also commit the table to docs/benchmarks.md, with its picture, the date and the machine
+        #[arg(long, conflicts_with_all = ["instructions", "bless", "fmu_dir"])]
+        write: bool,
         /// Count instructions only
         #[arg(long)]
         instructions: bool,
@@ -160,12 +163,13 @@ fn main() -> ExitCode {
         Command::Adversary { minutes, seed } => stages::adversary(minutes, seed),
         Command::Fuzz(request) => fuzz::fuzz(&request),
         Command::Bench {
+            write,
             instructions,
             bless,
             fmu_dir,
         } => match fmu_dir {
-            None if !instructions && !bless => stages::bench(),
-            folder => stages::instructions(folder, bless),
+            None if !instructions && !bless => stages::bench(write),
+            folder => stages::count(folder, bless),
         },
         Command::Venv { tests } => stages::venv(tests),
     };

@@ -1,6 +1,7 @@
 //! Commands made of stages one after the other, each with its name and its time; `cargo xtask test` and `ci` are in
 //! [`checks`](crate::checks).
 
+use crate::instructions;
 use crate::process::{Outcome, cargo, root, run};
 use crate::venv::{Packages, Venv};
 use std::path::PathBuf;
@@ -90,7 +91,7 @@ pub fn reproduce() -> Outcome {
 }
 
 /// `cargo xtask bench --instructions`, `--bless`
-pub fn instructions(folder: Option<PathBuf>, bless: bool) -> Outcome {
+pub fn count(folder: Option<PathBuf>, bless: bool) -> Outcome {
     let folder = match folder {
         Some(folder) => folder,
         None => {
@@ -99,8 +100,8 @@ pub fn instructions(folder: Option<PathBuf>, bless: bool) -> Outcome {
         }
     };
     match bless {
-        true => crate::instructions::bless(&folder),
-        false => crate::instructions::check(&folder),
+        true => instructions::bless(&folder),
+        false => instructions::check(&folder),
     }
 }
 
@@ -109,21 +110,28 @@ fn fmus() -> PathBuf {
     root().join("target/fmu")
 }
 
-/// `cargo xtask bench`
-pub fn bench() -> Outcome {
+/// `cargo xtask bench`, `--write`: the table of ratios. A count of instructions that is too high fails it, at its end; no time does.
+pub fn bench(write: bool) -> Outcome {
     let venv = harness(Packages::Test)?;
-    stage("instructions", || crate::instructions::check(&fmus()))?;
-    stage("cargo bench", || {
-        run(&mut cargo(["bench", "--locked", "--package", "abi"]))
-    })?;
     stage("native", || native(Packages::Test))?;
-    stage("engines", || run(&mut venv.command(["benches/engines.py"])))?;
-    stage("arm benchmark", || {
-        run(&mut venv.command(["tests/system/oracles/benchmark.py"]))
+    stage("law", || crate::law::build_all(false, None))?;
+    // An earlier run's counts are not this one's.
+    for file in [instructions::COUNTED, instructions::FLOOR] {
+        let _ = std::fs::remove_file(root().join(file));
+    }
+    let counted = stage("instructions", || Ok(instructions::check(&fmus())))?;
+    let floors = root().join("target/bench/floors");
+    stage("instructions of the FMI floor", || {
+        run(venv.command(["-m", "benches", "--floors"]).arg(&floors))?;
+        instructions::floors(&floors)
     })?;
-    stage("same arithmetic", || {
-        run(&mut venv.command(["benches/same_arithmetic.py"]))
-    })
+    stage("table", || {
+        let mut table = venv.command(["-m", "benches"]);
+        table.args(["--counts-fmu", instructions::COUNTED]);
+        table.args(["--counts-floor", instructions::FLOOR]);
+        run(table.args(write.then_some("--write")))
+    })?;
+    counted
 }
 
 /// `cargo xtask adversary`

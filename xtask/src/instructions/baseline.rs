@@ -3,7 +3,7 @@
 use crate::process::{Failure, Outcome, at, root};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Where they are committed.
 pub const PATH: &str = "tests/abi/instructions.json";
@@ -48,9 +48,16 @@ impl Baseline {
     /// # Errors
     /// When it cannot be written.
     pub fn commit(&self) -> Outcome {
+        self.write(&path())
+    }
+
+    /// Writes the same table elsewhere.
+    ///
+    /// # Errors
+    /// When it cannot be written.
+    pub fn write(&self, path: &Path) -> Outcome {
         let all = json!({"compiler": self.compiler, "instructions": self.counts});
-        let path = path();
-        std::fs::write(&path, format!("{all:#}\n")).map_err(at(&path))
+        std::fs::write(path, format!("{all:#}\n")).map_err(at(path))
     }
 
     /// Whether these counts may be: each at most 5 % above the committed one.

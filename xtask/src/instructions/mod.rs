@@ -12,9 +12,17 @@ use crate::process::{Failure, Outcome, answer, at, built, program, root, run};
 use baseline::{Baseline, Counts};
 use callgrind::{Counted, count};
 use std::path::{Path, PathBuf};
+use std::process::Command;
 
 /// Calls of each kind that are counted.
 const CALLS: u64 = 200;
+
+/// What is counted of an FMU.
+const FUNCTIONS: [&str; 3] = ["fmi2DoStep", "fmi2Get*", "fmi2Set*"];
+
+/// Where the counts of the last run lie, and those of the FMI floor, for the table of ratios.
+pub const COUNTED: &str = "target/instructions/counted.json";
+pub const FLOOR: &str = "target/instructions/floor.json";
 
 /// Ticks that `tests/host/counted_ticks.c` makes of each law.
 const TICKS: u64 = 1000;
@@ -27,17 +35,53 @@ pub fn check(folder: &Path) -> Outcome {
     let Some(counts) = counted(folder)? else {
         return Ok(());
     };
-    let compiler = compiler()?;
+    let now = Baseline {
+        compiler: compiler()?,
+        counts,
+    };
+    now.write(&root().join(COUNTED))?;
     let committed = Baseline::committed()?;
-    if committed.compiler != compiler {
+    if committed.compiler != now.compiler {
         println!(
-            "not compared: {} was counted with {}, this is {compiler}",
+            "not compared: {} was counted with {}, this is {}",
             baseline::PATH,
-            committed.compiler
+            committed.compiler,
+            now.compiler
         );
         return Ok(());
     }
-    committed.allows(&counts)
+    committed.allows(&now.counts)
+}
+
+/// Counts the same calls on the archives of the FMI floor (`benches/floor.c`) in `folder`, for the table of ratios.
+///
+/// # Errors
+/// When valgrind is there and a count fails.
+pub fn floors(folder: &Path) -> Outcome {
+    if valgrind().is_none() {
+        return Ok(());
+    }
+    let out = root().join("target/instructions");
+    let driver = built("counted_calls")?;
+    let mut counts = Counts::new();
+    for fmu in fmus::ALL {
+        let calls = calls(&driver, folder, fmu.name);
+        let place = out.join(format!("{}-floor", fmu.name));
+        let (_, parts) = count::<3>(&calls, &FUNCTIONS, &place)?;
+        for (what, part) in ["step", "get", "set"].iter().zip(&parts) {
+            counts.insert(format!("{} {what}", fmu.name), part.all / CALLS);
+        }
+    }
+    let compiler = compiler()?;
+    Baseline { compiler, counts }.write(&root().join(FLOOR))
+}
+
+/// The program that calls an FMU of a folder.
+fn calls(driver: &Path, folder: &Path, name: &str) -> Command {
+    let mut command = program(driver, ["--fmu-dir"]);
+    command.arg(folder).args(["--fmu", name]);
+    command.args(["--calls", &CALLS.to_string()]);
+    command
 }
 
 /// Counts all, prints the table, and commits it to the file.
@@ -70,11 +114,8 @@ fn counted(folder: &Path) -> Outcome<Option<Counts>> {
     let driver = built("counted_calls")?;
     tables(&out)?;
     for fmu in fmus::ALL {
-        let mut command = program(&driver, ["--fmu-dir"]);
-        command.arg(folder).args(["--fmu", fmu.name]);
-        command.args(["--calls", &CALLS.to_string()]);
-        let functions = ["fmi2DoStep", "fmi2Get*", "fmi2Set*"];
-        let (printed, [step, get, set]) = count(&command, &functions, &out.join(fmu.name))?;
+        let mut command = calls(&driver, folder, fmu.name);
+        let (printed, [step, get, set]) = count(&command, &FUNCTIONS, &out.join(fmu.name))?;
         command.arg("--moving");
         command.arg(out.join(fmu.name).with_extension("txt"));
         let moving = out.join(format!("{}-moving", fmu.name));

@@ -13,6 +13,7 @@ use crate::build::{forbid_private_paths, remapping};
 use crate::catalogue::law_headers;
 use crate::process::{Outcome, at, cargo, program, root, run};
 use pack::{Binutils, pack};
+use std::env::consts::DLL_SUFFIX;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -54,6 +55,9 @@ pub const HEADERS: [&str; 2] = ["exo_law.h", "exo_law_f32.h"];
 /// The programs of `fmu/c/examples`, built beside each library.
 const EXAMPLES: [&str; 2] = ["control", "replay"];
 
+/// The one that is a shared library: the law behind the functions of FMI 2.0, for `exo run --c-library`.
+const FMI: &str = "fmi2";
+
 fn source() -> PathBuf {
     root().join("fmu/c")
 }
@@ -85,8 +89,9 @@ pub fn build_all(bless: bool, prefix: Option<&Path>) -> Outcome {
         let library = folder.join(precision.library);
         copy(&build(precision)?, &library)?;
         for name in EXAMPLES {
-            example(name, precision, &folder)?;
+            example(name, precision, &folder, &[], "")?;
         }
+        example(FMI, precision, &folder, &["-shared", "-fPIC"], DLL_SUFFIX)?;
         let size = std::fs::metadata(&library).map_or(0, |file| file.len()) / 1000;
         println!(
             "target/law/{}/{}  {size} kB",
@@ -146,15 +151,16 @@ pub fn build(precision: &Precision) -> Outcome<PathBuf> {
     Ok(packed)
 }
 
-/// A program of `fmu/c/examples`, linked with the library.
-fn example(name: &str, precision: &Precision, folder: &Path) -> Outcome {
+/// A program of `fmu/c/examples`, linked with the library; with `flags` another kind of file.
+fn example(name: &str, precision: &Precision, folder: &Path, flags: &[&str], end: &str) -> Outcome {
     let mut cc = program("cc", ["-std=c99", "-Wall", "-Wextra", "-Wpedantic", "-O2"]);
-    cc.args(precision.define)
+    cc.args(flags)
+        .args(precision.define)
         .arg("-I")
         .arg(folder)
         .arg(source().join("examples").join(name).with_extension("c"))
         .arg(folder.join(precision.library))
         .args(["-lm", "-o"])
-        .arg(folder.join(name));
+        .arg(folder.join(format!("{name}{end}")));
     run(&mut cc)
 }

@@ -2,12 +2,13 @@
 
 import json
 from collections.abc import Callable
+from contextlib import ExitStack
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from exo import experiment, folder, junit, kept, loop, presets, report, results, scenario, screen, selection
+from exo import c_library, experiment, folder, junit, kept, loop, presets, report, results, scenario, screen, selection
 from exo import requirements as required
 from exo.commands.options import AsJson, Csv, EngineOption, FmuDir, Out, Signals, parse_settings, progress_bar
 from exo.errors import ScenarioError
@@ -60,6 +61,12 @@ def run(
     real_time: Annotated[
         bool, typer.Option("--real-time", help="By the clock; says how late steps began and which ones overran.")
     ] = False,
+    c_precision: Annotated[
+        str | None,
+        typer.Option(
+            "--c-library", metavar="f64|f32", help="Controllers: the C library of `cargo xtask law`, not their FMUs."
+        ),
+    ] = None,
     requirements: Annotated[
         Path | None, typer.Option(metavar="FILE", help="Also judges the requirements of this file.")
     ] = None,
@@ -74,12 +81,16 @@ def run(
 
     What --set, --duration or --step change makes the verdicts that rest on it information.
     """
-    with sentences():
+    with sentences(), ExitStack() as stack:
         scenarios = [
             selection.narrowed(one, cases=cases or (), duration=duration, step=step) for one in selection.load(names)
         ]
         own_file = any(name.endswith(".toml") for name in names)
         given = {key: value for key, value in (("duration", duration), ("step", step)) if value is not None}
+        if c_precision is not None:
+            for one in scenarios:
+                c_library.check(one, c_precision)
+            fmu_dir = stack.enter_context(c_library.archives(find_fmu_dir(fmu_dir), c_precision))
         passed = _run_all(
             scenarios=scenarios,
             overrides=parse_settings(settings or []),

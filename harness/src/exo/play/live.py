@@ -8,7 +8,7 @@ from pathlib import Path
 from time import perf_counter, sleep
 from typing import Any
 
-from exo import loop, profile
+from exo import profile
 from exo import scenario as scenarios
 from exo.coupled import Coupled
 from exo.errors import ExoError

@@ -1,32 +1,33 @@
-"""A substep of ExoskeletonArm.fmu against a step of MuJoCo, implicitfast, in one run on one core.
+"""A substep of ExoskeletonArm.fmu beside a step of MuJoCo, implicitfast.
 
-`python tests/system/oracles/benchmark.py`, also the last stage of `cargo xtask bench`. Both arms start 1 mm above the
-table and get the same joint torques, changed every 10 ms: they are pressed on the table and rubbed over it, forth and
-back, so that joints slide and hold and the pad stays in contact. Both step by 1e-4 s, a hundred steps a call: the FMU
-through fmi2DoStep, sensors, energies and checks included; MuJoCo through mj_step. The smallest of several times counts.
+Both arms start 1 mm above the table and get the same joint torques, changed every 10 ms: they are pressed on the table
+and rubbed over it, forth and back, so that joints slide and hold and the pad stays in contact. Both step by 1e-4 s, a
+hundred steps a call: the FMU through fmi2DoStep, sensors, energies and checks included; MuJoCo through mj_step with
+`nstep`, so that Python costs it nothing. Of MuJoCo's settings the fastest one counts.
 """
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from ctypes import c_double, c_int, c_void_p
 from dataclasses import dataclass, field
 from pathlib import Path
-from time import perf_counter_ns
+from time import thread_time_ns
 
 import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from exo.fmu import Archive, Instance, References, find_fmu_dir
+from benches.row import Bench, Found, Row, Sheet
+from benches.turns import in_turns, pinned
+from exo.fmu import Archive, Instance, References
 
 Vector = NDArray[np.float64]
-ARM_XML = Path(__file__).with_name("arm.xml")
+ARM_XML = Path(__file__).parents[1] / "tests" / "system" / "oracles" / "arm.xml"
 
 STEP = 1e-4
 CHUNK = 100
 CHUNKS = 400
-REPETITIONS = 5
 #: What a substep may cost, in steps of MuJoCo; and what it should.
-REQUIRED, WANTED = 1 / 5, 1 / 10
+LIMIT, AIM = 1 / 10, 1 / 15
 
 
 def torques() -> Vector:
@@ -38,7 +39,7 @@ def torques() -> Vector:
 
 @dataclass(kw_only=True)
 class Run:
-    """Times of all chunks (ns), and how often the pad was in contact, and how often joints moved, at their ends."""
+    """Processor times of all chunks (ns); whether the pad was in contact, and which joints moved, at their ends."""
 
     ns: list[int] = field(default_factory=list)
     q: list[Vector] = field(default_factory=list)
@@ -51,14 +52,10 @@ class Run:
         self.sliding.append(np.abs(dq) > 1e-4)
         self.contact.append(contact)
 
-    def share(self) -> str:
-        """What was active."""
+    def shares(self) -> tuple[str, str]:
+        """In how much of the time the pad was in contact, and each joint moved (%)."""
         moving = ", ".join(f"{100 * share:.0f}" for share in np.mean(self.sliding, axis=0))
-        return f"contact in {100 * np.mean(self.contact):.0f} %, joints sliding in {moving} % of the chunks"
-
-    def per_step(self) -> float:
-        """Mean time of a step (ns)."""
-        return sum(self.ns) / (CHUNK * len(self.ns))
+        return f"{100 * np.mean(self.contact):.0f}", moving
 
 
 def plant(archive: Archive) -> Run:
@@ -80,9 +77,9 @@ def plant(archive: Archive) -> Run:
         for k, tau in enumerate(torques()):
             arm.write(tau_a, np.ascontiguousarray(tau))
             t, h = c_double(k * CHUNK * STEP), c_double(CHUNK * STEP)
-            began = perf_counter_ns()
+            began = thread_time_ns()
             status = step(component, t, h, keep)
-            run.ns.append(perf_counter_ns() - began)
+            run.ns.append(thread_time_ns() - began)
             assert status == 0, arm.last_message()
             arm.read(moving, values)
             arm.read(touching, contact)
@@ -111,9 +108,9 @@ def foreign(changes: Mapping[str, float | int]) -> Run:
     run = Run()
     for tau in torques():
         data.qfrc_applied[:] = tau
-        began = perf_counter_ns()
+        began = thread_time_ns()
         mujoco.mj_step(model, data, nstep=CHUNK)
-        run.ns.append(perf_counter_ns() - began)
+        run.ns.append(thread_time_ns() - began)
         run.look(data.qpos, data.qvel, contact=data.ncon > 0)
     return run
 
@@ -123,33 +120,46 @@ def distance(a: Run, b: Run) -> float:
     return float(np.abs(np.array(a.q) - np.array(b.q)).max())
 
 
-def main() -> None:
-    """Measures and prints. MuJoCo's fastest setting is the one that counts."""
-    ours: list[Run] = []
-    theirs: dict[str, list[Run]] = {name: [] for name in SETTINGS}
-    with Archive(find_fmu_dir() / "ExoskeletonArm.fmu") as archive:
-        for _ in range(REPETITIONS):  # in turns: what else the machine does meets all
-            ours.append(plant(archive))
-            for name, changes in SETTINGS.items():
-                theirs[name].append(foreign(changes))
-    substep = min(run.per_step() for run in ours)
-    step = {name: min(run.per_step() for run in runs) for name, runs in theirs.items()}
-    print(f"ExoskeletonArm.fmu through fmi2DoStep: {substep:.0f} ns a substep of {STEP:g} s; {ours[0].share()}")
+def measure(bench: Bench) -> Iterator[Found]:
+    """The row, and what the runs did."""
+    last: dict[str, Run] = {}
+
+    def kept(name: str, run: Run) -> float:
+        last[name] = run
+        return 1e-9 * sum(run.ns)
+
+    with Archive(bench.fmu_dir / "ExoskeletonArm.fmu") as archive, pinned():
+        theirs = {
+            name: lambda name=name, changes=changes: kept(name, foreign(changes))  # type: ignore[misc]
+            for name, changes in SETTINGS.items()
+        }
+        times = in_turns({"ours": lambda: kept("ours", plant(archive)), **theirs}, bench.rounds)
+    fastest = min(theirs, key=times.median)
+    steps = CHUNK * CHUNKS
+    lines = [("ExoskeletonArm.fmu", f"{1e9 * times.median('ours') / steps:,.0f}", *last["ours"].shares(), "", "")]
     for name, changes in SETTINGS.items():
-        run, exact = theirs[name][0], foreign({**changes, **EXACT})
-        print(
-            f"MuJoCo {mujoco.__version__} implicitfast, {name}: {step[name] / 1e3:.2f} µs a step of {STEP:g} s, "
-            f"ratio 1/{step[name] / substep:.1f}; {run.share()}; {distance(run, exact):.0e} rad from tolerance 0, "
-            f"{distance(run, ours[0]):.0e} rad from the plant, whose friction and contact are not soft"
-        )
-    ratio = substep / min(step.values())
-    print(
-        f"a substep costs 1/{1 / ratio:.1f} of MuJoCo's fastest step; "
-        f"required: 1/{1 / REQUIRED:.0f}, wanted: 1/{1 / WANTED:.0f}"
+        run, exact = last[name], foreign({**changes, **EXACT})
+        distances = (f"{distance(run, exact):.0e}", f"{distance(run, last['ours']):.0e}")
+        lines.append((f"MuJoCo, {name}", f"{1e9 * times.median(name) / steps:,.0f}", *run.shares(), *distances))
+    yield Row(
+        name="ExoskeletonArm substep / MuJoCo implicitfast step",
+        value=times.ratio("ours", fastest),
+        spread=times.spread("ours", fastest),
+        limit=LIMIT,
+        aim=AIM,
+        told=f"{1e9 * times.median('ours') / steps:,.0f} ns / {1e9 * times.median(fastest) / steps:,.0f} ns; {fastest}",
     )
-    if ratio > REQUIRED:
-        raise SystemExit("the plant's substep costs more than required")
-
-
-if __name__ == "__main__":
-    main()
+    yield Sheet(
+        title="The arm beside MuJoCo",
+        about=f"Steps of {STEP:g} s, pressed and rubbed on the table, MuJoCo {mujoco.__version__}. Its friction and "
+        "contact are soft, the plant's are not; so the arms end apart.",
+        header=(
+            "what",
+            "ns a step",
+            "pad in contact, % of the time",
+            "joints sliding, % of the time",
+            "largest distance from tolerance 0, rad",
+            "from the FMU, rad",
+        ),
+        lines=lines,
+    )
