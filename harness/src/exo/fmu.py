@@ -11,7 +11,6 @@ from collections import deque
 from collections.abc import Mapping
 from contextlib import ExitStack
 from ctypes import byref, c_char_p, c_double, c_int, c_size_t, c_void_p
-from itertools import count
 from math import isfinite
 from pathlib import Path
 from types import TracebackType
@@ -19,19 +18,12 @@ from typing import Any, Literal, Self
 
 import fmpy
 import numpy as np
-from fmpy import calloc, free
-from fmpy.fmi2 import (
-    FMU2Slave,
-    fmi2CallbackAllocateMemoryTYPE,
-    fmi2CallbackFreeMemoryTYPE,
-    fmi2CallbackFunctions,
-    fmi2CallbackLoggerTYPE,
-)
-from fmpy.logging import addLoggerProxy
+from fmpy.fmi2 import FMU2Slave
 from numpy.typing import NDArray
 
 from exo.errors import FmuError, close_matches
 from exo.extraction import Extraction, opened
+from exo.messages import ENVIRONMENTS, MESSAGES, callbacks
 
 Kind = Literal["Real", "Integer", "Boolean"]
 #: How the values of each kind lie in memory.
@@ -218,31 +210,8 @@ class References:
         return bool(self.names)
 
 
-#: Where the messages of each living instance go. fmpy's proxy, which formats what the FMU logs (the logger is variadic
-#: in C), knows one Python logger per process; the instances are told apart by the environment that they were given.
-_MESSAGES: dict[int, deque[tuple[str, str]]] = {}
-_ENVIRONMENTS = count(1)
 #: fmpy changes the working directory while it loads a library, which is one for all threads.
 _LOADING = threading.Lock()
-
-
-def _log(environment: int, _instance: bytes, _status: int, category: bytes, message: bytes) -> None:
-    if environment in _MESSAGES:
-        said = [(text or b"").decode(errors="replace") for text in (category, message)]
-        _MESSAGES[environment].append((said[0], said[1]))
-
-
-_LOGGER = fmi2CallbackLoggerTYPE(_log)
-
-
-def _callbacks(environment: int) -> Any:
-    callbacks = fmi2CallbackFunctions()
-    callbacks.logger = _LOGGER
-    callbacks.allocateMemory = fmi2CallbackAllocateMemoryTYPE(calloc)
-    callbacks.freeMemory = fmi2CallbackFreeMemoryTYPE(free)
-    callbacks.componentEnvironment = environment
-    addLoggerProxy(byref(callbacks))
-    return callbacks
 
 
 class Instance:
@@ -253,8 +222,8 @@ class Instance:
         self.name = name
         #: The last messages as (category, text).
         self.messages: deque[tuple[str, str]] = deque(maxlen=200)
-        self._environment = next(_ENVIRONMENTS)
-        self._callbacks = _callbacks(self._environment)
+        self._environment = next(ENVIRONMENTS)
+        self._callbacks = callbacks(self._environment)
         description = archive.description
         library = archive.library
         with _LOADING:
@@ -280,11 +249,11 @@ class Instance:
             raise FmuError(f"{self.archive.path}: its library has no {name}") from None
 
     def __enter__(self) -> Self:
-        _MESSAGES[self._environment] = self.messages
+        MESSAGES[self._environment] = self.messages
         try:
             self._instantiate()
         except FmuError:
-            del _MESSAGES[self._environment]
+            del MESSAGES[self._environment]
             raise
         return self
 
@@ -299,7 +268,7 @@ class Instance:
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
         self._slave.freeInstance()
-        del _MESSAGES[self._environment]
+        del MESSAGES[self._environment]
 
     def last_message(self) -> str:
         """The FMU's last log message, in one line."""
