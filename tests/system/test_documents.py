@@ -10,8 +10,8 @@ from exo.sensitivity import Runner, jobs, load, rounded
 from documents import assumptions, citations, names
 from documents.names import DOCUMENTS, ROOT
 
-README = (ROOT / "README.md").read_text(encoding="utf-8")
-MAP = list(names.paper_map(README))
+EXPERIMENTS = (ROOT / "docs/experiments.md").read_text(encoding="utf-8")
+MAP = list(names.paper_map((ROOT / "docs/map.md").read_text(encoding="utf-8")))
 
 
 def read(document: str) -> str:
@@ -36,8 +36,8 @@ def test_a_file_a_scenario_and_a_name_that_are_gone_are_found() -> None:
     assert names.tests("`README.md` and `docs/paper.md::title`") == [("docs/paper.md", "title")]
 
 
-def test_the_readme_lists_every_scenario() -> None:
-    table = README.split("| scenario | what it shows |")[1].split("\n\n")[0]
+def test_the_experiments_list_every_scenario() -> None:
+    table = EXPERIMENTS.split("| scenario | what it shows |")[1].split("\n\n")[0]
     assert sorted(scenario.built_in()) == sorted(
         names.quoted("\n".join(row.split("|")[1] for row in table.splitlines()[2:]))
     )

@@ -294,7 +294,7 @@ def test_the_bundle_is_made_of_the_sources_beside_it() -> None:
 
 
 def test_each_law_is_told_in_the_words_of_the_readme() -> None:
-    text = (Path(__file__).resolve().parents[2] / "README.md").read_text(encoding="utf-8")
+    text = (Path(__file__).resolve().parents[2] / "docs/controllers.md").read_text(encoding="utf-8")
     table = text.partition("<!-- laws:")[2].partition("<!-- end -->")[0]
     rows = [[cell.strip() for cell in line.split("|")] for line in table.splitlines() if line.startswith("| ")][1:]
     assert {row[2].strip("`"): row[3] for row in rows} == ABOUT

@@ -1,9 +1,9 @@
-//! The README's table of the laws, made from the table that computes with them.
+//! The table of the laws in docs/controllers.md, made from the table that computes with them.
 
 use admittance::Law;
 use admittance::law::{Felt, Yields};
 
-/// The table, as it stands in the README between its marks.
+/// The table, as it stands there between its marks.
 pub fn table() -> String {
     let mut lines = vec![
         "| `law` | name | what it is | the nominal feels | spring | tank | forms |".to_owned(),
@@ -47,7 +47,7 @@ mod tests {
 
     #[test]
     fn the_readme_has_the_table_of_the_laws() {
-        let readme = std::fs::read_to_string(crate::root().join("README.md")).expect("is there");
+        let readme = std::fs::read_to_string(crate::root().join("docs/controllers.md")).expect("is there");
         let begin = "<!-- laws: made from fmu/admittance/src/law.rs -->\n";
         let block = readme
             .split_once(begin)
@@ -55,7 +55,7 @@ mod tests {
             .map(|(block, _)| block);
         assert!(
             block == Some(&table()),
-            "expected in README.md:\n{}",
+            "expected in docs/controllers.md:\n{}",
             table()
         );
     }

@@ -17,7 +17,7 @@
 //! | [`terminals`] | the same by terminals, for FMI 3.0 |
 //! | [`table`] | what the C host must know of an FMU |
 //! | [`header`] | the C header of the law's library |
-//! | [`laws`] | the README's table of the laws |
+//! | [`laws`] | the table of the laws in docs/controllers.md |
 //! | [`package`] | whose they are: version, copyright, licence |
 //! | [`extra`] | what else goes into an archive: the references |
 //! | [`request`] | what `cargo xtask` asks for: archives from libraries |

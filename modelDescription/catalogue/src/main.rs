@@ -7,7 +7,7 @@
 //! catalogue tables FOLDER          writes <Name>.txt for the C host
 //! catalogue law-headers FOLDER     writes the C headers of the law's library
 //! catalogue law-documents REQUEST  writes its licences and its bill of materials; a file of JSON
-//! catalogue laws                   prints the README's table of the laws
+//! catalogue laws                   prints the table of the laws in docs/controllers.md
 //! ```
 
 use cargo_fmu::pack::replace;

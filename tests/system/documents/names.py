@@ -149,8 +149,8 @@ class Row:
 
 
 def paper_map(text: str) -> Iterator[Row]:
-    """The rows of the README's map from the paper to the code; a scenario is a place like any file."""
-    section = text.split("### From the paper to the code")[1].split("\n## ", maxsplit=1)[0]
+    """The rows of the map (docs/map.md) from the paper to the code; a scenario is a place like any file."""
+    section = text.split("## From the paper to the code")[1].split("\n## ", maxsplit=1)[0]
     for line in section.splitlines():
         cells = [cell.strip() for cell in line.strip("|").split("|")]
         if not line.startswith("|") or len(cells) != 4 or cells[0] in ("paper", "---"):

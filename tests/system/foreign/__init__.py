@@ -6,5 +6,5 @@
 | `runs` | a record through fmpy, libcosim, the `fmi` crate, and inside a container |
 | `cosim` | any coupling through libcosim, in a process of its own (`cosim_child`) |
 | `contents` | what is in a folder, for archives in odd places (`frozen_child`: in one that cannot be written) |
-| `matrix` | `matrix.toml`, from which docs/importers.md and the README get their tables |
+| `matrix` | `matrix.toml`, from which docs/importers.md gets its tables |
 """

@@ -10,7 +10,7 @@ from typing import Any
 
 ROOT = Path(__file__).parents[3]
 #: Document → the tables in it, each between two comments.
-DOCUMENTS = {"README.md": ("matrix",), "docs/importers.md": ("importers", "matrix", "limits", "platforms", "absent")}
+DOCUMENTS = {"docs/importers.md": ("importers", "matrix", "limits", "platforms", "absent")}
 #: How a platform's state is said of an FMU.
 STATES = {"run": "run", "built": "built, not run", "absent": "–"}
 

@@ -1,4 +1,4 @@
-"""What the laws are, in the words of the README's table, for who watches and has not read it."""
+"""What the laws are, in the words of docs/controllers.md's table, for who watches and has not read it."""
 
 ABOUT = {
     "standard": "admittance filter alone, no reaction on the nominal; sticks to walls",
