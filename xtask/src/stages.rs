@@ -53,7 +53,7 @@ pub fn venv(tests: bool) -> Outcome {
 /// `cargo xtask site`: the documentation; a dead link is an error.
 pub fn site() -> Outcome {
     let venv = Venv::ready(Packages::Test)?;
-    let mut build = venv.command(["-m", "mkdocs", "build", "--quiet"]);
+    let mut build = venv.command(["-m", "mkdocs", "build", "--strict"]);
     // What Material for MkDocs says about another product.
     build.env("NO_MKDOCS_2_WARNING", "1");
     stage("mkdocs", || run(&mut build))?;
