@@ -344,7 +344,13 @@ def test_a_scenario_with_many_cases_asks_for_one(fmu_dir: Path) -> None:
         exo.simulate("wall", fmu_dir=fmu_dir)
     with pytest.raises(exo.ScenarioError, match=r"close matches: passive_bounded_5_0\.5"):
         exo.simulate("wall", case="passive_bounded_5_.5", fmu_dir=fmu_dir)
-    with pytest.raises(exo.ScenarioError, match=r"got 3; expected an id, a path to a \.toml file, or a dictionary"):
+    with pytest.raises(exo.ScenarioError, match=r"Testbed\.fmu: got an FMU by itself; expected exo\.couple"):
+        exo.simulate(exo.load(fmu_dir / "Testbed.fmu"), duration=1.0)  # type: ignore[arg-type]
+    with pytest.raises(exo.FmuError, match="load: got a value of type int; expected the path of an FMU"):
+        exo.couple({"plant": 3}, step=0.1)  # type: ignore[dict-item]
+    with pytest.raises(
+        exo.ScenarioError, match=r"got a value of type int; expected an id, a path to a \.toml file, or a dictionary"
+    ):
         exo.simulate(3)  # type: ignore[arg-type]
     with pytest.raises(exo.FmuError, match=r"expected an FMI 2\.0 co-simulation FMU, got FMI 3\.0"):
         exo.load(fmu_dir / "fmi3" / "Testbed.fmu")

@@ -136,6 +136,8 @@ def load(fmu: str | PathLike[str], *, fmu_dir: str | PathLike[str] | None = None
     `fmu` is a file, or the name of one in `fmu_dir`, else in the folder that `EXO_FMU_DIR` names, else in `target/fmu`
     here or further up. FmuError, if there is none, or it is no FMI 2.0 FMU for co-simulation.
     """
+    if not isinstance(fmu, str | PathLike):
+        raise FmuError(f"load: got a value of type {type(fmu).__name__}; expected the path of an FMU")
     path = _found(Path(fmu), None if fmu_dir is None else Path(fmu_dir))
     archive = Archive(path, strict=False)
     description = archive.description

@@ -9,6 +9,7 @@ from typing import Any
 
 from exo import derived, loop, preflight, trial
 from exo import scenario as scenarios
+from exo.api.fmu import Fmu
 from exo.api.run import Run
 from exo.api.signals import Signal, fed
 from exo.api.system import System, archives_of, plan_of, positive
@@ -33,7 +34,10 @@ def read_scenario(scenario: str | PathLike[str] | Tables) -> Scenario:
     if isinstance(scenario, Mapping):
         return scenarios.from_tables(scenario)
     if not isinstance(scenario, str | PathLike):
-        raise ScenarioError(f"scenario: got {scenario!r:.60}; expected an id, a path to a .toml file, or a dictionary")
+        what = type(scenario).__name__
+        raise ScenarioError(
+            f"scenario: got a value of type {what}; expected an id, a path to a .toml file, or a dictionary"
+        )
     return scenarios.load(str(scenario))
 
 
@@ -69,6 +73,10 @@ def simulate(
         raise ScenarioError(f"engine {engine!r}: expected one of {', '.join(loop.ENGINES)}")
     chosen: Engine = loop.fastest() if engine is None else loop.named(engine)
     with ExitStack() as stack:
+        if isinstance(what, Fmu):
+            raise ScenarioError(
+                f'{what.path.name}: got an FMU by itself; expected exo.couple({{"name": fmu}}), or a scenario'
+            )
         if isinstance(what, System):
             of, archives, name = _of_system(what, case=case, duration=duration, step=step)
             signals: tuple[str, ...] = ()
