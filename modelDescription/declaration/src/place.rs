@@ -1,5 +1,6 @@
 //! Where a row's values lie in the struct that holds them.
 
+use crate::integer::IntegerType;
 use core::marker::PhantomData;
 
 /// The place of a row's values in the struct `M`: an offset, and a stride where there are several. The interface sees
@@ -31,13 +32,16 @@ pub enum Stored {
     Single,
     /// A Boolean as a 32-bit integer, 0 or 1: what C hands over may be any bits.
     Word,
+    /// An integer of another type than `i32`.
+    Integer(IntegerType),
 }
 
 mod sealed {
     pub trait Sealed {}
 }
 
-/// A type of the interface: `f64`, `i32`, `bool` and, with the feature `std`, `String`.
+/// A type of the interface: `f64`, `i32`, `bool`, `i128` for integers beyond 32 bits, and, with the feature `std`, `String`
+/// and `Vec<u8>`.
 pub trait Value: sealed::Sealed + Clone + 'static {
     /// Reads the value at `place`.
     ///
@@ -46,7 +50,8 @@ pub trait Value: sealed::Sealed + Clone + 'static {
     #[doc(hidden)]
     unsafe fn read(place: *const u8, stored: Stored) -> Self;
 
-    /// Writes the value to `place`.
+    /// Writes the value to `place`. One that the stored type does not hold loses its leading bits, so it is held against
+    /// its row before.
     ///
     /// # Safety
     /// `place` points to a valid value of the stored type, which may be written.
@@ -61,7 +66,7 @@ impl Value for f64 {
         unsafe {
             match stored {
                 Stored::Single => f64::from(*place.cast::<f32>()),
-                Stored::AsIs | Stored::Word => *place.cast(),
+                _ => *place.cast(),
             }
         }
     }
@@ -71,7 +76,7 @@ impl Value for f64 {
         unsafe {
             match stored {
                 Stored::Single => *place.cast() = self as f32,
-                Stored::AsIs | Stored::Word => *place.cast() = self,
+                _ => *place.cast() = self,
             }
         }
     }
@@ -79,14 +84,57 @@ impl Value for f64 {
 
 impl sealed::Sealed for i32 {}
 impl Value for i32 {
-    unsafe fn read(place: *const u8, _: Stored) -> Self {
-        // SAFETY: the caller's contract.
-        unsafe { *place.cast() }
+    unsafe fn read(place: *const u8, stored: Stored) -> Self {
+        // SAFETY: the caller's contract. Larger types have `i128` as their value.
+        unsafe {
+            match stored {
+                Stored::Integer(IntegerType::Int8) => Self::from(*place.cast::<i8>()),
+                Stored::Integer(IntegerType::UInt8) => Self::from(*place),
+                Stored::Integer(IntegerType::Int16) => Self::from(*place.cast::<i16>()),
+                Stored::Integer(IntegerType::UInt16) => Self::from(*place.cast::<u16>()),
+                _ => *place.cast(),
+            }
+        }
     }
 
-    unsafe fn write(self, place: *mut u8, _: Stored) {
-        // SAFETY: the caller's contract.
-        unsafe { *place.cast() = self }
+    unsafe fn write(self, place: *mut u8, stored: Stored) {
+        // SAFETY: the caller's contract, and as in `read`.
+        unsafe {
+            match stored {
+                Stored::Integer(IntegerType::Int8) => *place.cast() = self as i8,
+                Stored::Integer(IntegerType::UInt8) => *place = self as u8,
+                Stored::Integer(IntegerType::Int16) => *place.cast() = self as i16,
+                Stored::Integer(IntegerType::UInt16) => *place.cast() = self as u16,
+                _ => *place.cast() = self,
+            }
+        }
+    }
+}
+
+impl sealed::Sealed for i128 {}
+impl Value for i128 {
+    unsafe fn read(place: *const u8, stored: Stored) -> Self {
+        // SAFETY: the caller's contract. No field of a row is an `i128` itself; an `i32` is one by `Place::widened`.
+        unsafe {
+            match stored {
+                Stored::Integer(IntegerType::UInt32) => Self::from(*place.cast::<u32>()),
+                Stored::Integer(IntegerType::Int64) => Self::from(*place.cast::<i64>()),
+                Stored::Integer(IntegerType::UInt64) => Self::from(*place.cast::<u64>()),
+                small => Self::from(i32::read(place, small)),
+            }
+        }
+    }
+
+    unsafe fn write(self, place: *mut u8, stored: Stored) {
+        // SAFETY: the caller's contract, and as in `read`.
+        unsafe {
+            match stored {
+                Stored::Integer(IntegerType::UInt32) => *place.cast() = self as u32,
+                Stored::Integer(IntegerType::Int64) => *place.cast() = self as i64,
+                Stored::Integer(IntegerType::UInt64) => *place.cast() = self as u64,
+                small => (self as i32).write(place, small),
+            }
+        }
     }
 }
 
@@ -97,7 +145,7 @@ impl Value for bool {
         unsafe {
             match stored {
                 Stored::Word => *place.cast::<i32>() != 0,
-                Stored::AsIs | Stored::Single => *place.cast(),
+                _ => *place.cast(),
             }
         }
     }
@@ -107,31 +155,38 @@ impl Value for bool {
         unsafe {
             match stored {
                 Stored::Word => *place.cast() = i32::from(self),
-                Stored::AsIs | Stored::Single => *place.cast() = self,
+                _ => *place.cast() = self,
             }
         }
     }
 }
 
-#[cfg(feature = "std")]
-impl sealed::Sealed for String {}
-#[cfg(feature = "std")]
-impl Value for String {
-    unsafe fn read(place: *const u8, _: Stored) -> Self {
-        // SAFETY: the caller's contract.
-        unsafe { (*place.cast::<Self>()).clone() }
-    }
+macro_rules! owned {
+    ($value:ty) => {
+        #[cfg(feature = "std")]
+        impl sealed::Sealed for $value {}
+        #[cfg(feature = "std")]
+        impl Value for $value {
+            unsafe fn read(place: *const u8, _: Stored) -> Self {
+                // SAFETY: the caller's contract.
+                unsafe { (*place.cast::<Self>()).clone() }
+            }
 
-    unsafe fn write(self, place: *mut u8, _: Stored) {
-        // SAFETY: the caller's contract.
-        unsafe { *place.cast::<Self>() = self }
-    }
+            unsafe fn write(self, place: *mut u8, _: Stored) {
+                // SAFETY: the caller's contract.
+                unsafe { *place.cast::<Self>() = self }
+            }
+        }
+    };
 }
+
+owned! { String }
+owned! { Vec<u8> }
 
 /// The type of a field that a row can show: a value, or an array of values.
 #[diagnostic::on_unimplemented(
     message = "a row cannot show a field of type `{Self}`",
-    label = "expected f64, f32, i32, bool, String or an array of one of them",
+    label = "expected f64, f32, an integer of 8 to 64 bits, bool, String, Vec<u8> or an array of one of them",
     note = "a field without `#[input]`, `#[output]`, `#[parameter]`, `#[calculated]` or `#[local]` is a state and may have any type; a struct of rows is a `#[part]`"
 )]
 pub trait Leaf {
@@ -146,25 +201,35 @@ pub trait Leaf {
 }
 
 macro_rules! leaf {
-    ($($field:ty => $value:ty, $stored:ident;)+) => {$(
+    ($($field:ty => $value:ty, $stored:expr;)+) => {$(
         impl Leaf for $field {
             type Value = $value;
             const LEN: usize = 1;
             const STRIDE: usize = size_of::<Self>();
-            const STORED: Stored = Stored::$stored;
+            const STORED: Stored = $stored;
         }
     )+};
 }
 
 leaf! {
-    f64 => f64, AsIs;
-    f32 => f64, Single;
-    i32 => i32, AsIs;
-    bool => bool, AsIs;
+    f64 => f64, Stored::AsIs;
+    f32 => f64, Stored::Single;
+    i8 => i32, Stored::Integer(IntegerType::Int8);
+    u8 => i32, Stored::Integer(IntegerType::UInt8);
+    i16 => i32, Stored::Integer(IntegerType::Int16);
+    u16 => i32, Stored::Integer(IntegerType::UInt16);
+    i32 => i32, Stored::AsIs;
+    u32 => i128, Stored::Integer(IntegerType::UInt32);
+    i64 => i128, Stored::Integer(IntegerType::Int64);
+    u64 => i128, Stored::Integer(IntegerType::UInt64);
+    bool => bool, Stored::AsIs;
 }
 
 #[cfg(feature = "std")]
-leaf! { String => String, AsIs; }
+leaf! {
+    String => String, Stored::AsIs;
+    Vec<u8> => Vec<u8>, Stored::AsIs;
+}
 
 impl<L: Leaf, const N: usize> Leaf for [L; N] {
     type Value = L::Value;
@@ -196,6 +261,7 @@ pub const fn of_word<M, L: Leaf<Value = i32>>(
 ) -> Place<M, bool> {
     let _ = field;
     assert!(L::LEN > 0, "a row has a value");
+    assert!(matches!(L::STORED, Stored::AsIs), "boolean is for an i32");
     Place {
         offset,
         stride: L::STRIDE,
@@ -287,7 +353,37 @@ impl<M, V: Value> Place<M, V> {
     }
 }
 
+impl<M> Place<M, i32> {
+    /// In which type the values are stored.
+    pub const fn integer_type(&self) -> IntegerType {
+        IntegerType::of(self.stored)
+    }
+
+    /// The same values in the type that holds all integers.
+    pub const fn widened(self) -> Place<M, i128> {
+        Place {
+            offset: self.offset,
+            stride: self.stride,
+            len: self.len,
+            stored: self.stored,
+            holder: PhantomData,
+        }
+    }
+}
+
+impl<M> Place<M, i128> {
+    /// In which type the values are stored.
+    pub const fn integer_type(&self) -> IntegerType {
+        IntegerType::of(self.stored)
+    }
+}
+
 impl<M> Place<M, f64> {
+    /// Whether the values are stored in single precision.
+    pub const fn is_single(&self) -> bool {
+        matches!(self.stored, Stored::Single)
+    }
+
     /// Whether all values are finite.
     #[inline]
     pub fn are_finite(&self, model: &M) -> bool {
@@ -319,7 +415,7 @@ impl<M> Place<M, bool> {
                 holder: PhantomData,
             }
             .get(model, i),
-            Stored::AsIs | Stored::Single => i32::from(self.get(model, i)),
+            _ => i32::from(self.get(model, i)),
         }
     }
 }

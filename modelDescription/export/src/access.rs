@@ -7,7 +7,7 @@ use crate::kind::{Kind, TIME};
 use crate::legality::Phase;
 use crate::model::{Model, Refusal};
 use crate::provenance::text;
-use fmu_declaration::{Access, Causality, Enumeration, Place, Provenance, Variable};
+use fmu_declaration::{Access, Causality, Enumeration, Place, Provenance, Range, Variable};
 use std::convert::Infallible;
 
 /// A value of the interface, and what a row demands of it.
@@ -19,33 +19,43 @@ pub trait Value: fmu_declaration::Value {
     fn of_text(_: &'static str) -> Option<Self> {
         None
     }
-
-    /// A time (s) as a value, if this is the type for times.
-    fn of_time(_: f64) -> Option<Self> {
-        None
-    }
 }
 
 impl Value for f64 {
     #[inline]
     fn objection<M>(&self, row: &Variable<M>) -> Option<String> {
-        let Access::Real { unit, range, .. } = &row.access else {
+        let Access::Real { unit, range, at } = &row.access else {
             return None;
         };
-        if range.contains(*self) || (row.may_be_nan && !self.is_finite()) {
+        let accepted = if at.is_single() {
+            // As it will be stored: what is too large for that is infinite.
+            range.single().contains((*self as f32).into())
+        } else {
+            range.contains(*self)
+        };
+        if accepted || (row.may_be_nan && !self.is_finite()) {
             return None;
         }
-        Some(out_of_range(*self, unit.name, range))
+        let range = if at.is_single() { in_single(range) } else { *range };
+        Some(out_of_range(*self, unit.name, &range))
     }
+}
 
-    fn of_time(time: f64) -> Option<Self> {
-        Some(time)
+/// The range with the bounds of single precision.
+#[cold]
+fn in_single(range: &Range) -> Range {
+    let largest = f64::from(f32::MAX);
+    let single = range.single();
+    Range {
+        low: single.low.max(-largest),
+        high: single.high.min(largest),
+        ..single
     }
 }
 
 #[cold]
-fn out_of_range(value: f64, unit: &str, range: &fmu_declaration::Range) -> String {
-    let fmu_declaration::Range { low, high, .. } = range;
+fn out_of_range(value: f64, unit: &str, range: &Range) -> String {
+    let Range { low, high, .. } = range;
     if value.is_finite() {
         format!("= {value} {unit}, expected a value from {low} to {high}")
     } else {
@@ -67,8 +77,24 @@ impl Value for i32 {
     }
 }
 
+impl Value for i128 {
+    fn objection<M>(&self, row: &Variable<M>) -> Option<String> {
+        match &row.access {
+            Access::Wide { min, max, .. } if self < min || self > max => {
+                Some(format!("= {self}, expected a value from {min} to {max}"))
+            }
+            Access::Enumeration { of, .. }
+                if !of.items.iter().any(|item| i128::from(item.value) == *self) =>
+            {
+                Some(no_item(*self, of))
+            }
+            _ => None,
+        }
+    }
+}
+
 #[cold]
-fn no_item(value: i64, of: &Enumeration) -> String {
+fn no_item(value: i128, of: &Enumeration) -> String {
     let items: Vec<_> = of
         .items
         .iter()
@@ -95,6 +121,23 @@ impl Value for String {
     fn of_text(text: &'static str) -> Option<Self> {
         Some(text.to_owned())
     }
+}
+
+impl Value for Vec<u8> {
+    fn objection<M>(&self, row: &Variable<M>) -> Option<String> {
+        match row.access {
+            Access::Binary {
+                max_size: Some(most),
+                ..
+            } if self.len() > most => Some(too_long(self.len(), most)),
+            _ => None,
+        }
+    }
+}
+
+#[cold]
+fn too_long(size: usize, most: usize) -> String {
+    format!("has {size} bytes, expected at most {most}")
 }
 
 /// Checks every parameter against its row, as Set does: for models that are also used without the C interface, whose
@@ -126,6 +169,8 @@ pub(crate) fn check<M: Model>(model: &M, causality: Causality) -> Result<(), Ref
         let objection = match &row.access {
             Access::Real { at, .. } => first(model, at, row),
             Access::Integer { at, .. } | Access::Enumeration { at, .. } => first(model, at, row),
+            Access::Wide { at, .. } => first(model, at, row),
+            Access::Binary { at, .. } => first(model, at, row),
             Access::Boolean { at } => (0..row.len)
                 .find_map(|i| Some((i, boolean(at.word(model, i)).err()?.objection(row)))),
             Access::String { .. } => None,
@@ -161,16 +206,13 @@ impl NoValue for Word {
     }
 }
 
-/// An integer that is no item of any enumeration: too large.
-pub(crate) struct TooLarge(pub i64);
+/// A null pointer to so many bytes.
+pub(crate) struct NoBytes(pub usize);
 
-impl NoValue for TooLarge {
+impl NoValue for NoBytes {
     #[cold]
-    fn objection<M>(self, row: &Variable<M>) -> String {
-        match &row.access {
-            Access::Enumeration { of, .. } => no_item(self.0, of),
-            _ => format!("= {}, expected an item", self.0),
-        }
+    fn objection<M>(self, _: &Variable<M>) -> String {
+        format!("is null, expected {} bytes", self.0)
     }
 }
 
@@ -242,7 +284,7 @@ impl<M: Model> Instance<M> {
     fn without_row<K: Kind>(&self, reference: ValueReference) -> Result<K::Value, Failure> {
         let (name, value) = match Provenance::find(reference) {
             Some(of) => (of.name(), K::Value::of_text(text(of))),
-            None if reference == TIME && !K::SCALAR => ("time", K::Value::of_time(self.time())),
+            None if reference == TIME && !K::SCALAR => ("time", K::of_time(self.time())),
             None => return unknown::<_, M>(reference),
         };
         value.map_or_else(|| another_type::<_, K>(name, reference), Ok)

@@ -24,6 +24,8 @@ pub struct Instance<M: Model> {
     outputs: Outputs<M>,
     /// Strings handed to the importer, alive until its next call.
     pub(crate) strings: Vec<CString>,
+    /// Binaries handed to the importer, alive until its next call.
+    pub(crate) binaries: Vec<Vec<u8>>,
 }
 
 impl<M: Model> Instance<M> {
@@ -50,6 +52,7 @@ impl<M: Model> Instance<M> {
             stale: false,
             outputs: Outputs::new(),
             strings: Vec::new(),
+            binaries: Vec::new(),
         };
         instance.now.model.located(instance.resources.as_deref());
         instance

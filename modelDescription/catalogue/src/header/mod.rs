@@ -98,7 +98,7 @@ fn meaning(access: &Access<impl Sized>) -> Option<String> {
             };
             Some(of.items.iter().map(item).collect::<Vec<_>>().join(", "))
         }
-        Access::Integer { .. } | Access::String { .. } => None,
+        Access::Integer { .. } | Access::Wide { .. } | Access::String { .. } | Access::Binary { .. } => None,
     }
 }
 
