@@ -5,8 +5,8 @@ use crate::entry::{Entry, Kind};
 use crate::error::Error;
 use crate::rules::{check_arrays, check_frame, check_row, check_scalars, known};
 use fmu_declaration::{
-    Access, Causality, Declare, Declared, Description, Enumeration, Experiment, IntegerType, Provenance, Scalar,
-    Stepping, Unit, Variability, provenance,
+    Access, Causality, Declare, Declared, Description, Enumeration, Experiment, IntegerType,
+    Provenance, Scalar, Stepping, Unit, Variability, provenance,
 };
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -143,9 +143,7 @@ fn kind<D>(scalar: &Scalar<D>, start: &D) -> Kind {
             (*min).into(),
             (*max).into(),
         ),
-        Access::Wide { min, max, at } => {
-            integer(at.integer_type(), at.get(start, i), *min, *max)
-        }
+        Access::Wide { min, max, at } => integer(at.integer_type(), at.get(start, i), *min, *max),
         Access::Boolean { at } => Kind::Boolean {
             start: at.get(start, i),
         },

@@ -179,9 +179,7 @@ pub(crate) fn check_scalars(scalars: &[Entry]) -> Result<(), Error> {
             }
             Kind::Integer {
                 start, min, max, ..
-            } => {
-                min.is_none_or(|min| min <= *start) && max.is_none_or(|max| *start <= max)
-            }
+            } => min.is_none_or(|min| min <= *start) && max.is_none_or(|max| *start <= max),
             Kind::Enumeration { of, start, .. } => {
                 if types.insert(of.name, of).is_some_and(|other| other != *of) {
                     return Err(Error::Type {

@@ -257,7 +257,11 @@ fn elements(array: &Array<'_>) -> Vec<Start> {
         _ => None,
     };
     given
-        .filter_map(|entry| Some(Start { value: value(entry)? }))
+        .filter_map(|entry| {
+            Some(Start {
+                value: value(entry)?,
+            })
+        })
         .collect()
 }
 

@@ -83,9 +83,11 @@ fn bounds<M>(row: &Variable<M>) -> (&'static str, f64, f64) {
         #[cfg(feature = "std")]
         Access::String { .. } => (NONE.name, f64::NAN, f64::NAN),
         #[cfg(feature = "std")]
-        Access::Binary { max_size, .. } => {
-            (NONE.name, 0.0, max_size.map_or(f64::INFINITY, |most| most as f64))
-        }
+        Access::Binary { max_size, .. } => (
+            NONE.name,
+            0.0,
+            max_size.map_or(f64::INFINITY, |most| most as f64),
+        ),
     }
 }
 

@@ -213,10 +213,7 @@ fn every_value_is_read_and_written_where_it_lies() {
         (model.small, model.byte, model.short, model.port),
         ([19, 20], 21, 22, 23)
     );
-    assert_eq!(
-        (model.count, model.long, model.mask),
-        (24, 25, [26, 27])
-    );
+    assert_eq!((model.count, model.long, model.mask), (24, 25, [26, 27]));
     assert_eq!(model.picture, [28]);
     assert_eq!(whole()[18].value(&model, 1), Some(27_i128));
     assert_eq!(whole()[4].value(&model, 1), Some(8.0));

@@ -36,21 +36,19 @@ impl Value for f64 {
         if accepted || (row.may_be_nan && !self.is_finite()) {
             return None;
         }
-        let range = if at.is_single() { in_single(range) } else { *range };
-        Some(out_of_range(*self, unit.name, &range))
+        if at.is_single() && self.is_finite() && (*self as f32).is_infinite() {
+            return Some(beyond_single(*self, unit.name));
+        }
+        Some(out_of_range(*self, unit.name, range))
     }
 }
 
-/// The range with the bounds of single precision.
 #[cold]
-fn in_single(range: &Range) -> Range {
-    let largest = f64::from(f32::MAX);
-    let single = range.single();
-    Range {
-        low: single.low.max(-largest),
-        high: single.high.min(largest),
-        ..single
-    }
+fn beyond_single(value: f64, unit: &str) -> String {
+    let largest = f32::MAX;
+    format!(
+        "= {value:?} {unit}, expected at most {largest:?} in magnitude, as single precision holds"
+    )
 }
 
 #[cold]

@@ -174,15 +174,40 @@ mod tests {
             let refusal = crate::rows::derive(&item, &quote::quote!(::fmu_declaration));
             refusal.expect_err("it is refused").to_string()
         };
-        let integer = parse_quote!(struct S { #[input(unit = METRE)] x: u8 });
+        let integer = parse_quote!(
+            struct S {
+                #[input(unit = METRE)]
+                x: u8,
+            }
+        );
         assert_eq!(refused(integer), "unit is for f64 and f32");
-        let range = parse_quote!(struct S { #[input(range = 0..=5)] x: i64 });
+        let range = parse_quote!(
+            struct S {
+                #[input(range = 0..=5)]
+                x: i64,
+            }
+        );
         assert!(refused(range).ends_with("an integer has integers = low..=high"));
-        let real = parse_quote!(struct S { #[input(integers = 0..=5)] x: f32 });
+        let real = parse_quote!(
+            struct S {
+                #[input(integers = 0..=5)]
+                x: f32,
+            }
+        );
         assert!(refused(real).starts_with("integers is for integers"));
-        let items = parse_quote!(struct S { #[input(items = MODE)] x: u32 });
+        let items = parse_quote!(
+            struct S {
+                #[input(items = MODE)]
+                x: u32,
+            }
+        );
         assert_eq!(refused(items), "items is for i32");
-        let size = parse_quote!(struct S { #[input(max_size = 8)] x: String });
+        let size = parse_quote!(
+            struct S {
+                #[input(max_size = 8)]
+                x: String,
+            }
+        );
         assert_eq!(refused(size), "max_size is for Vec<u8>");
     }
 }

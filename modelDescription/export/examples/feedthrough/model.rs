@@ -111,6 +111,9 @@ pub struct Feedthrough {
     /// as the sensor
     #[output(51, unit = METRE, nan)]
     sensor_out: f32,
+    /// the next step panics
+    #[input(52)]
+    panic: bool,
 }
 
 /// Parameters with bounds, start values and several elements.
@@ -184,6 +187,7 @@ impl Model for Feedthrough {
     }
 
     fn step(&mut self, _step: Step, _log: &mut Log<'_>) -> Result<(), Refusal> {
+        assert!(!self.panic, "told to");
         self.feed();
         Ok(())
     }

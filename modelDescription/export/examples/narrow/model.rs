@@ -39,12 +39,18 @@ pub struct Narrow {
     /// gain times the mean of the channels
     #[output(from = ["gain"])]
     mean: f32,
+    /// added to the mean
+    #[parameter]
+    offset: f32,
     /// which edges count
     #[parameter(items = EDGE, typed, start = 1)]
     edge: i32,
     /// any text
     #[parameter(start = "narrow".into())]
     label: String,
+    /// the next step panics
+    #[input]
+    panic: bool,
     before: [bool; 2],
 }
 
@@ -52,7 +58,7 @@ impl Narrow {
     fn show(&mut self) {
         let [a, b] = self.count;
         self.difference = i16::from(a) - i16::from(b);
-        self.mean = self.gain * (f32::from(a) + f32::from(b)) / 2.0;
+        self.mean = self.gain * (f32::from(a) + f32::from(b)) / 2.0 + self.offset;
     }
 }
 
@@ -66,6 +72,7 @@ impl Model for Narrow {
     }
 
     fn step(&mut self, _step: Step, _log: &mut Log<'_>) -> Result<(), Refusal> {
+        assert!(!self.panic, "told to");
         for i in 0..2 {
             let (now, before) = (self.signal[i], self.before[i]);
             if now != before && (now || self.edge == 2) {

@@ -175,7 +175,11 @@ pub unsafe fn get_binary<M: Model>(
             for ((size, value), bytes) in sizes.iter_mut().zip(values).zip(&instance.binaries) {
                 *size = bytes.len();
                 // No bytes have an address, too, so that importers may copy from it.
-                *value = if bytes.is_empty() { NO_BYTES.as_ptr() } else { bytes.as_ptr() };
+                *value = if bytes.is_empty() {
+                    NO_BYTES.as_ptr()
+                } else {
+                    bytes.as_ptr()
+                };
             }
             Ok(())
         })
