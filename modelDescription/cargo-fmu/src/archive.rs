@@ -278,3 +278,48 @@ pub fn dist(
     }
     Ok((archives, rows))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use fmu_export::declaration::{Declare, Description, Experiment, Stepping};
+
+    /// A model with one variable that FMI 2.0 has no type for.
+    #[derive(Default, fmu_export::Rows)]
+    struct Counter {
+        /// what is counted
+        #[input]
+        counted: [bool; 2],
+        /// how often
+        #[output]
+        count: [u32; 2],
+    }
+
+    impl Declare for Counter {
+        const DESCRIPTION: Description<Self> = Description {
+            name: "Counter",
+            about: "counts",
+            stepping: Stepping::Exact,
+            experiment: Experiment {
+                start: 0.0,
+                stop: 1.0,
+                tolerance: 1e-6,
+                step: 0.1,
+            },
+            variables: <Self as fmu_export::declaration::Rows>::ROWS,
+        };
+    }
+
+    #[test]
+    fn a_variable_without_a_type_in_fmi_2_is_named_unless_fmi_3_alone_is_asked_for() {
+        let interface = Interface::of::<Counter>().unwrap();
+        let asking = |fmi: &[Version]| Facts {
+            fmi: fmi.to_vec(),
+            ..Facts::default()
+        };
+        let said = refused(&interface, &asking(&[Version::Fmi2, Version::Fmi3])).unwrap();
+        assert!(said.contains("count[1] is of type UInt32"), "{said}");
+        assert!(said.contains("fmi = [\"3.0\"]"), "{said}");
+        assert_eq!(refused(&interface, &asking(&[Version::Fmi3])), None);
+    }
+}

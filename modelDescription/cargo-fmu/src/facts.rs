@@ -151,8 +151,10 @@ impl Facts {
             .fmi
             .unwrap_or_else(|| vec![Version::Fmi2, Version::Fmi3]);
         if fmi.is_empty() {
-            let (key, expected) = ("fmi", r#""2.0", "3.0" or both in brackets"#);
-            return Err(wrong(package, key, "", expected));
+            let manifest = &package.manifest_path;
+            return Err(Failure::Found(format!(
+                "{manifest}: [package.metadata.fmu]: fmi = []: expected [\"2.0\"], [\"3.0\"] or both"
+            )));
         }
         Ok(Self {
             fmi,
