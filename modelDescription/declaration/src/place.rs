@@ -61,6 +61,7 @@ pub trait Value: sealed::Sealed + Clone + 'static {
 
 impl sealed::Sealed for f64 {}
 impl Value for f64 {
+    #[inline]
     unsafe fn read(place: *const u8, stored: Stored) -> Self {
         // SAFETY: the caller's contract.
         unsafe {
@@ -71,6 +72,7 @@ impl Value for f64 {
         }
     }
 
+    #[inline]
     unsafe fn write(self, place: *mut u8, stored: Stored) {
         // SAFETY: the caller's contract.
         unsafe {
@@ -84,29 +86,59 @@ impl Value for f64 {
 
 impl sealed::Sealed for i32 {}
 impl Value for i32 {
+    #[inline]
     unsafe fn read(place: *const u8, stored: Stored) -> Self {
-        // SAFETY: the caller's contract. Larger types have `i128` as their value.
+        // SAFETY: the caller's contract.
         unsafe {
             match stored {
-                Stored::Integer(IntegerType::Int8) => Self::from(*place.cast::<i8>()),
-                Stored::Integer(IntegerType::UInt8) => Self::from(*place),
-                Stored::Integer(IntegerType::Int16) => Self::from(*place.cast::<i16>()),
-                Stored::Integer(IntegerType::UInt16) => Self::from(*place.cast::<u16>()),
+                Stored::Integer(of) => read_small(place, of),
                 _ => *place.cast(),
             }
         }
     }
 
+    #[inline]
     unsafe fn write(self, place: *mut u8, stored: Stored) {
-        // SAFETY: the caller's contract, and as in `read`.
+        // SAFETY: the caller's contract.
         unsafe {
             match stored {
-                Stored::Integer(IntegerType::Int8) => *place.cast() = self as i8,
-                Stored::Integer(IntegerType::UInt8) => *place = self as u8,
-                Stored::Integer(IntegerType::Int16) => *place.cast() = self as i16,
-                Stored::Integer(IntegerType::UInt16) => *place.cast() = self as u16,
+                Stored::Integer(of) => write_small(self, place, of),
                 _ => *place.cast() = self,
             }
+        }
+    }
+}
+
+/// Apart, so that an `i32` costs nothing for the types that are smaller.
+///
+/// # Safety
+/// As for [`Value::read`]. Larger types have `i128` as their value.
+#[inline(never)]
+unsafe fn read_small(place: *const u8, of: IntegerType) -> i32 {
+    // SAFETY: this function's contract.
+    unsafe {
+        match of {
+            IntegerType::Int8 => i32::from(*place.cast::<i8>()),
+            IntegerType::UInt8 => i32::from(*place),
+            IntegerType::Int16 => i32::from(*place.cast::<i16>()),
+            IntegerType::UInt16 => i32::from(*place.cast::<u16>()),
+            _ => *place.cast(),
+        }
+    }
+}
+
+/// # Safety
+/// As for [`Value::write`], and as for [`read_small`].
+#[inline(never)]
+unsafe fn write_small(value: i32, place: *mut u8, of: IntegerType) {
+    // SAFETY: this function's contract.
+    unsafe {
+        match of {
+            IntegerType::Int8 => *place.cast() = value as i8,
+            IntegerType::UInt8 => *place = value as u8,
+            IntegerType::Int16 => *place.cast() = value as i16,
+            IntegerType::UInt16 => *place.cast() = value as u16,
+            _ => *place.cast() = value,
         }
     }
 }

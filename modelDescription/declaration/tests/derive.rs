@@ -320,17 +320,22 @@ fn an_integer_without_bounds_has_those_of_its_type() {
 fn no_bit_of_an_integer_is_lost() {
     let mut model = Whole::default();
     for row in whole() {
-        let (of, set): (_, &dyn Fn(&mut Whole, i128) -> i128) = match &row.access {
-            Access::Integer { at, .. } => (at.integer_type(), &|model, value| {
+        let of = match &row.access {
+            Access::Integer { at, .. } => at.integer_type(),
+            Access::Wide { at, .. } => at.integer_type(),
+            _ => continue,
+        };
+        let set = |model: &mut Whole, value: i128| match &row.access {
+            Access::Integer { at, .. } => {
                 at.set(model, 0, value as i32);
                 assert_eq!(at.widened().get(model, 0), at.get(model, 0).into());
                 at.get(model, 0).into()
-            }),
-            Access::Wide { at, .. } => (at.integer_type(), &|model, value| {
+            }
+            Access::Wide { at, .. } => {
                 at.set(model, 0, value);
                 at.get(model, 0)
-            }),
-            _ => continue,
+            }
+            _ => panic!("no integer"),
         };
         let (low, high) = (of.low(), of.high());
         for value in [low, low + 1, low / 3, 0, 1, high / 3, high - 1, high] {

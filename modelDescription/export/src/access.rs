@@ -27,20 +27,32 @@ impl Value for f64 {
         let Access::Real { unit, range, at } = &row.access else {
             return None;
         };
-        let accepted = if at.is_single() {
-            // As it will be stored: what is too large for that is infinite.
-            range.single().contains((*self as f32).into())
-        } else {
-            range.contains(*self)
-        };
-        if accepted || (row.may_be_nan && !self.is_finite()) {
+        // The common case alone, so that it costs little.
+        if range.contains(*self) && !at.is_single() {
             return None;
         }
-        if at.is_single() && self.is_finite() && (*self as f32).is_infinite() {
-            return Some(beyond_single(*self, unit.name));
-        }
-        Some(out_of_range(*self, unit.name, range))
+        real_objection(*self, unit.name, range, at.is_single(), row.may_be_nan)
     }
+}
+
+#[inline(never)]
+fn real_objection(
+    value: f64,
+    unit: &str,
+    range: &Range,
+    single: bool,
+    may_be_nan: bool,
+) -> Option<String> {
+    // As it will be stored: what is too large for single precision is infinite there.
+    let stored = f64::from(value as f32);
+    let accepted = single && range.single().contains(stored);
+    if accepted || (may_be_nan && !value.is_finite()) {
+        return None;
+    }
+    if single && value.is_finite() && stored.is_infinite() {
+        return Some(beyond_single(value, unit));
+    }
+    Some(out_of_range(value, unit, range))
 }
 
 #[cold]
@@ -296,7 +308,7 @@ impl<M: Model> Instance<M> {
         let mut count = 0;
         for &reference in references {
             count += match find::<K, M>(reference) {
-                Some((row, _)) if K::at(&row.access).is_some() => K::len(row),
+                Some((row, _)) if K::is(&row.access) => K::len(row),
                 Some((row, element)) => {
                     return another_type::<_, K>(&shown::<K, M>(row, element), reference);
                 }
@@ -358,7 +370,7 @@ impl<M: Model> Instance<M> {
                     None => unknown::<_, M>(reference),
                 };
             };
-            if K::at(&variable.access).is_none() {
+            if !K::is(&variable.access) {
                 return another_type::<_, K>(&shown::<K, M>(variable, element), reference);
             }
             let first = if K::SCALAR { i } else { next };
@@ -385,11 +397,8 @@ impl<M: Model> Instance<M> {
             };
             let first = if K::SCALAR { i } else { next };
             next = first + K::len(row);
-            let Some(at) = K::at(&row.access) else {
-                continue;
-            };
             K::visit(row, element, first, |element, i| {
-                if let Ok(value) = value(i) {
+                if let (Ok(value), Some(at)) = (value(i), K::at(&row.access)) {
                     at.set(&mut self.now.model, element, value);
                 }
                 None::<()>

@@ -20,6 +20,12 @@ pub trait Kind {
     /// Whether each value reference stands for one value.
     const SCALAR: bool;
 
+    /// Whether the row is of this type.
+    #[inline(always)]
+    fn is<M>(access: &Access<M>) -> bool {
+        Self::at(access).is_some()
+    }
+
     /// Where the row's values are, if the row is of this type.
     fn at<M>(access: &Access<M>) -> Option<Place<M, Self::Value>>;
 
@@ -74,7 +80,7 @@ macro_rules! kind {
             const NAME: &'static str = $standard;
             const SCALAR: bool = $scalar;
 
-            #[inline]
+            #[inline(always)]
             fn at<M>(access: &Access<M>) -> Option<Place<M, $value>> {
                 match access {
                     $row $(if $guard)? => Some($at),
