@@ -143,7 +143,9 @@ fn kind<D>(scalar: &Scalar<D>, start: &D) -> Kind {
             (*min).into(),
             (*max).into(),
         ),
-        Access::Wide { min, max, at } => integer(at.integer_type(), at.get(start, i), *min, *max),
+        Access::Wide { min, max, at } => {
+            integer(at.integer_type(), at.get(start, i), min.get(), max.get())
+        }
         Access::Boolean { at } => Kind::Boolean {
             start: at.get(start, i),
         },

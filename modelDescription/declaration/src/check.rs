@@ -74,7 +74,7 @@ fn bounds<M>(row: &Variable<M>) -> (&'static str, f64, f64) {
     match &row.access {
         Access::Real { unit, range, .. } => (unit.name, range.low, range.high),
         Access::Integer { min, max, .. } => (NONE.name, (*min).into(), (*max).into()),
-        Access::Wide { min, max, .. } => (NONE.name, *min as f64, *max as f64),
+        Access::Wide { min, max, .. } => (NONE.name, min.get() as f64, max.get() as f64),
         Access::Enumeration { of, .. } => {
             let item = |item: Option<&crate::Item>| item.map_or(f64::NAN, |item| item.value.into());
             (NONE.name, item(of.items.first()), item(of.items.last()))
@@ -111,7 +111,7 @@ fn objection<M>(model: &M, row: &Variable<M>, i: usize) -> Option<(f64, Expected
         }
         Access::Wide { min, max, at } => {
             let value = at.get(model, i);
-            let accepted = (*min..=*max).contains(&value);
+            let accepted = (min.get()..=max.get()).contains(&value);
             (!accepted).then_some((value as f64, Expected::Text("an integer within the bounds")))
         }
         Access::Boolean { at } => {

@@ -28,6 +28,7 @@ impl<M: Declare> Description<M> {
                 }
                 Access::Wide { min, max, at } => {
                     let of = at.integer_type().name();
+                    let (min, max) = (min.get(), max.get());
                     format!("{of} {min} {max} {}", at.get(&start, i))
                 }
                 Access::Boolean { at } => format!("Boolean {}", at.get(&start, i)),

@@ -89,3 +89,20 @@ impl IntegerType {
         }
     }
 }
+
+/// A bound of an integer of any type. It is aligned as a number of 64 bits, so that rows that have none do not grow by it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(Rust, packed(8))]
+pub struct Bound(i128);
+
+impl Bound {
+    /// This number.
+    pub const fn new(value: i128) -> Self {
+        Self(value)
+    }
+
+    /// The number.
+    pub const fn get(self) -> i128 {
+        self.0
+    }
+}

@@ -1,5 +1,6 @@
 //! The row: one variable of a model, or one vector of them.
 
+use crate::integer::Bound;
 use crate::place::Place;
 use crate::range::Range;
 use crate::{Unit, Value};
@@ -123,9 +124,9 @@ pub enum Access<M> {
     /// An integer of a type that fmi2Integer does not hold: FMI 3.0 alone has it.
     Wide {
         /// Smallest accepted value; the type's: none.
-        min: i128,
+        min: Bound,
         /// Largest accepted value; the type's: none.
-        max: i128,
+        max: Bound,
         /// Where the values are.
         at: Place<M, i128>,
     },
@@ -193,7 +194,7 @@ impl<M> Access<M> {
             }
             Self::Wide { min, max, at } => {
                 let of = at.integer_type();
-                of.low() <= *min && *max <= of.high()
+                of.low() <= min.get() && max.get() <= of.high()
             }
             Self::Real { range, at, .. } if at.is_single() => range.is_single(),
             _ => true,

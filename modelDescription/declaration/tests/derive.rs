@@ -295,7 +295,7 @@ fn the_first_value_out_of_its_range_is_named() {
 fn an_integer_without_bounds_has_those_of_its_type() {
     let integer = |i: usize| match whole()[i].access {
         Access::Integer { min, max, at } => (at.integer_type(), min.into(), max.into()),
-        Access::Wide { min, max, at } => (at.integer_type(), min, max),
+        Access::Wide { min, max, at } => (at.integer_type(), min.get(), max.get()),
         _ => panic!("no integer"),
     };
     use fmu_declaration::IntegerType as I;

@@ -90,7 +90,8 @@ impl Value for i32 {
 impl Value for i128 {
     fn objection<M>(&self, row: &Variable<M>) -> Option<String> {
         match &row.access {
-            Access::Wide { min, max, .. } if self < min || self > max => {
+            Access::Wide { min, max, .. } if *self < min.get() || *self > max.get() => {
+                let (min, max) = (min.get(), max.get());
                 Some(format!("= {self}, expected a value from {min} to {max}"))
             }
             Access::Enumeration { of, .. }

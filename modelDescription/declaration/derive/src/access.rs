@@ -57,11 +57,15 @@ pub fn access(
             (access, &["items", "typed"])
         }
         "i8" | "u8" | "i16" | "u16" | "i32" => {
-            let bounds = integers(attribute, &kind, &quote!(i32))?;
+            let bounds = integers(attribute, &kind, &|bound| quote!(#bound as i32))?;
             (quote!(Integer { #bounds, at: #plain }), &["integers"])
         }
         "u32" | "i64" | "u64" => {
-            let bounds = integers(attribute, &kind, &quote!(i128))?;
+            let bounds = integers(
+                attribute,
+                &kind,
+                &|bound| quote!(#root::integer::Bound::new(#bound as i128)),
+            )?;
             (quote!(Wide { #bounds, at: #plain }), &["integers"])
         }
         "bool" => (quote!(Boolean { at: #plain }), &[]),
@@ -96,8 +100,12 @@ fn check_keys(attribute: &Row, keys: &[&str]) -> Result<()> {
     Ok(())
 }
 
-/// Bounds of an integer of the type `kind`, as numbers of the type `shown`.
-fn integers(attribute: &Row, kind: &str, shown: &TokenStream) -> Result<TokenStream> {
+/// Bounds of an integer of the type `kind`, each as the row has it, by `shown`.
+fn integers(
+    attribute: &Row,
+    kind: &str,
+    shown: &dyn Fn(TokenStream) -> TokenStream,
+) -> Result<TokenStream> {
     let kind = format_ident!("{kind}");
     let (least, most) = (quote!(#kind::MIN), quote!(#kind::MAX));
     let (low, high) = match attribute.key("integers") {
@@ -105,7 +113,10 @@ fn integers(attribute: &Row, kind: &str, shown: &TokenStream) -> Result<TokenStr
         None => (least, most),
     };
     // As the field's type first: a bound beyond it does not compile.
-    let bound = |of: TokenStream| quote!({ let bound: #kind = #of; bound as #shown });
+    let bound = |of: TokenStream| {
+        let shown = shown(quote!(bound));
+        quote!({ let bound: #kind = #of; #shown })
+    };
     let (low, high) = (bound(low), bound(high));
     Ok(quote!(min: #low, max: #high))
 }
