@@ -1,6 +1,6 @@
 //! One scalar variable of an interface.
 
-use fmu_declaration::{Causality, Declared, Enumeration, Unit, Variability};
+use fmu_declaration::{Causality, Declared, Enumeration, IntegerType, Unit, Variability};
 use serde::{Deserialize, Serialize};
 
 /// One scalar variable.
@@ -26,10 +26,11 @@ pub struct Entry {
 
 /// Type, bounds and start value. Bounds are `None` where there are none.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-#[serde(bound(deserialize = "'de: 'static"))]
 pub enum Kind {
     /// fmi2Real
     Real {
+        /// Whether it has single precision: Float32 in FMI 3.0.
+        single: bool,
         /// Unit of the three values.
         unit: Unit,
         /// Start value.
@@ -39,14 +40,16 @@ pub enum Kind {
         /// Largest accepted value.
         max: Option<f64>,
     },
-    /// fmi2Integer
+    /// An integer of any size
     Integer {
+        /// Its type in FMI 3.0.
+        of: IntegerType,
         /// Start value.
-        start: i32,
-        /// Smallest accepted value.
-        min: Option<i32>,
-        /// Largest accepted value.
-        max: Option<i32>,
+        start: i128,
+        /// Smallest accepted value, where the type has smaller ones.
+        min: Option<i128>,
+        /// Largest accepted value, where the type has larger ones.
+        max: Option<i128>,
     },
     /// fmi2Boolean
     Boolean {
@@ -58,6 +61,15 @@ pub enum Kind {
         /// Start value.
         start: String,
     },
+    /// Bytes, in FMI 3.0
+    Binary {
+        /// What they are.
+        mime_type: &'static str,
+        /// Most bytes that are accepted.
+        max_size: Option<usize>,
+        /// Start value.
+        start: Vec<u8>,
+    },
     /// fmi2Integer that takes the values of an enumeration's items
     Enumeration {
         /// The type.
@@ -68,6 +80,20 @@ pub enum Kind {
         /// Start value.
         start: i32,
     },
+}
+
+impl Kind {
+    /// Whether FMI 2.0 has a type for it.
+    pub const fn is_in_fmi2(&self) -> bool {
+        match self {
+            Self::Integer { of, .. } => of.is_in_fmi2(),
+            Self::Binary { .. } => false,
+            Self::Real { .. }
+            | Self::Boolean { .. }
+            | Self::String { .. }
+            | Self::Enumeration { .. } => true,
+        }
+    }
 }
 
 impl Entry {

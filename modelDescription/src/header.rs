@@ -114,6 +114,9 @@ fn kind(entry: &Entry, standard: Standard) -> String {
     match &entry.kind {
         Kind::Enumeration { of, .. } => format!("{of_items}, item of {}", of.name),
         Kind::Real { unit, .. } => format!("{}, {}", standard.type_name(&entry.kind), unit.name),
+        Kind::Binary { mime_type, .. } => {
+            format!("{}, {mime_type}", standard.type_name(&entry.kind))
+        }
         other => standard.type_name(other).to_owned(),
     }
 }

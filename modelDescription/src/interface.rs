@@ -5,8 +5,8 @@ use crate::entry::{Entry, Kind};
 use crate::error::Error;
 use crate::rules::{check_arrays, check_frame, check_row, check_scalars, known};
 use fmu_declaration::{
-    Access, Causality, Declare, Declared, Description, Enumeration, Experiment, Provenance, Scalar,
-    Stepping, Unit, Variability, provenance,
+    Access, Causality, Declare, Declared, Description, Enumeration, Experiment, IntegerType,
+    Provenance, Scalar, Stepping, Unit, Variability, provenance,
 };
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -74,6 +74,11 @@ impl Interface {
         })
     }
 
+    /// The first variable that FMI 2.0 has no type for: without one, the model has an archive of FMI 2.0.
+    pub fn beyond_fmi2(&self) -> Option<&Entry> {
+        self.scalars.iter().find(|entry| !entry.kind.is_in_fmi2())
+    }
+
     /// The units in use, each once, by name.
     pub fn units(&self) -> Vec<Unit> {
         let used = self.scalars.iter().filter_map(|entry| match entry.kind {
@@ -128,18 +133,32 @@ fn kind<D>(scalar: &Scalar<D>, start: &D) -> Kind {
         Access::Real { unit, range, at } => Kind::Real {
             unit: *unit,
             start: at.get(start, i),
+            single: at.is_single(),
             min: (range.low != f64::NEG_INFINITY).then_some(range.low),
             max: (range.high != f64::INFINITY).then_some(range.high),
         },
-        Access::Integer { min, max, at } => Kind::Integer {
-            start: at.get(start, i),
-            min: (*min != i32::MIN).then_some(*min),
-            max: (*max != i32::MAX).then_some(*max),
-        },
+        Access::Integer { min, max, at } => integer(
+            at.integer_type(),
+            at.get(start, i).into(),
+            (*min).into(),
+            (*max).into(),
+        ),
+        Access::Wide { min, max, at } => {
+            integer(at.integer_type(), at.get(start, i), min.get(), max.get())
+        }
         Access::Boolean { at } => Kind::Boolean {
             start: at.get(start, i),
         },
         Access::String { at } => Kind::String {
+            start: at.get(start, i),
+        },
+        Access::Binary {
+            mime_type,
+            max_size,
+            at,
+        } => Kind::Binary {
+            mime_type,
+            max_size: *max_size,
             start: at.get(start, i),
         },
         Access::Enumeration { of, declared, at } => Kind::Enumeration {
@@ -147,5 +166,14 @@ fn kind<D>(scalar: &Scalar<D>, start: &D) -> Kind {
             declared: *declared,
             start: at.get(start, i),
         },
+    }
+}
+
+fn integer(of: IntegerType, start: i128, min: i128, max: i128) -> Kind {
+    Kind::Integer {
+        of,
+        start,
+        min: (min != of.low()).then_some(min),
+        max: (max != of.high()).then_some(max),
     }
 }

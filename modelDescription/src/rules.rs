@@ -157,6 +157,7 @@ pub(crate) fn check_scalars(scalars: &[Entry]) -> Result<(), Error> {
                 start,
                 min,
                 max,
+                ..
             } => {
                 if units
                     .insert(unit.name, *unit)
@@ -176,9 +177,9 @@ pub(crate) fn check_scalars(scalars: &[Entry]) -> Result<(), Error> {
                     && min.is_none_or(|min| min <= *start)
                     && max.is_none_or(|max| *start <= max)
             }
-            Kind::Integer { start, min, max } => {
-                min.is_none_or(|min| min <= *start) && max.is_none_or(|max| *start <= max)
-            }
+            Kind::Integer {
+                start, min, max, ..
+            } => min.is_none_or(|min| min <= *start) && max.is_none_or(|max| *start <= max),
             Kind::Enumeration { of, start, .. } => {
                 if types.insert(of.name, of).is_some_and(|other| other != *of) {
                     return Err(Error::Type {
@@ -189,6 +190,9 @@ pub(crate) fn check_scalars(scalars: &[Entry]) -> Result<(), Error> {
                 of.items.iter().any(|item| item.value == *start)
             }
             Kind::String { start } => !start.chars().any(|c| c.is_control()),
+            Kind::Binary {
+                start, max_size, ..
+            } => max_size.is_none_or(|most| start.len() <= most),
             Kind::Boolean { .. } => true,
         };
         if !fits && !entry.is_calculated() {

@@ -87,10 +87,19 @@ element! {
 #[derive(Clone, Debug, Serialize)]
 #[allow(missing_docs, reason = "named as in the XSD")]
 pub enum Variable {
+    Float32(Attributes),
     Float64(Attributes),
+    Int8(Attributes),
+    UInt8(Attributes),
+    Int16(Attributes),
+    UInt16(Attributes),
     Int32(Attributes),
+    UInt32(Attributes),
+    Int64(Attributes),
+    UInt64(Attributes),
     Boolean(Attributes),
     String(Attributes),
+    Binary(Attributes),
     Enumeration(Attributes),
     Clock(Attributes),
 }
@@ -111,6 +120,8 @@ element! {
         #[serde(rename = "@min", skip_serializing_if = "Option::is_none")] min: Optional,
         #[serde(rename = "@max", skip_serializing_if = "Option::is_none")] max: Optional,
         #[serde(rename = "@start", skip_serializing_if = "Option::is_none")] start: Optional,
+        #[serde(rename = "@mimeType", skip_serializing_if = "Option::is_none")] mime_type: Optional,
+        #[serde(rename = "@maxSize", skip_serializing_if = "Option::is_none")] max_size: Option<usize>,
         #[serde(rename = "@priority", skip_serializing_if = "Option::is_none")] priority: Option<u32>,
         #[serde(rename = "@intervalVariability", skip_serializing_if = "Option::is_none")] interval_variability: Optional,
         #[serde(rename = "@intervalDecimal", skip_serializing_if = "Option::is_none")] interval: Optional,
@@ -123,7 +134,7 @@ element! {
     Dimension { #[serde(rename = "@start")] start: usize }
 }
 element! {
-    /// The start value of a String.
+    /// The start value of a String, or of a Binary in hexadecimal digits.
     Start { #[serde(rename = "@value")] value: Text }
 }
 element! {

@@ -22,12 +22,16 @@ impl Standard {
     /// All of them.
     pub const ALL: [Self; 3] = [Self::Fmi2, Self::Fmi3, Self::Fmi3Scheduled];
 
-    /// Those that a model has.
-    pub fn of(interface: &Interface) -> impl Iterator<Item = Self> {
+    /// Those that a model has: scheduled execution is for sampled ones, FMI 2.0 for those all of whose variables have a type
+    /// there ([`Interface::beyond_fmi2`]).
+    pub fn of(interface: &Interface) -> impl Iterator<Item = Self> + use<> {
         let sampled = interface.stepping == Stepping::Sampled;
-        Self::ALL
-            .into_iter()
-            .filter(move |one| sampled || *one != Self::Fmi3Scheduled)
+        let in_fmi2 = interface.beyond_fmi2().is_none();
+        Self::ALL.into_iter().filter(move |one| match one {
+            Self::Fmi2 => in_fmi2,
+            Self::Fmi3 => true,
+            Self::Fmi3Scheduled => sampled,
+        })
     }
 
     /// For humans.
@@ -83,11 +87,13 @@ impl Standard {
     pub const fn type_name(self, kind: &Kind) -> &'static str {
         match (self.is_fmi3(), kind) {
             (false, Kind::Real { .. }) => "Real",
+            (true, Kind::Real { single: true, .. }) => "Float32",
             (true, Kind::Real { .. }) => "Float64",
             (false, Kind::Integer { .. }) => "Integer",
-            (true, Kind::Integer { .. }) => "Int32",
+            (true, Kind::Integer { of, .. }) => of.name(),
             (_, Kind::Boolean { .. }) => "Boolean",
             (_, Kind::String { .. }) => "String",
+            (_, Kind::Binary { .. }) => "Binary",
             (_, Kind::Enumeration { .. }) => "Enumeration",
         }
     }

@@ -5,7 +5,8 @@ use crate::entry::{Entry, Kind};
 use crate::html::{Section, escape, table};
 use crate::interface::Interface;
 use crate::standard::Standard;
-use crate::xml::{double, variability};
+use crate::xml::{bounds, double, variability};
+use crate::xml3::{float, hexadecimal};
 use fmu_declaration::Causality;
 use std::fmt::Write as _;
 
@@ -134,18 +135,37 @@ fn row(body: &mut String, standard: Standard, elements: &[&Entry], start: bool) 
 fn describe(standard: Standard, kind: &Kind) -> (String, String) {
     let of_type = standard.type_name(kind);
     match kind {
-        Kind::Real { unit, min, max, .. } => (
-            format!("{of_type}, {}", escape(unit.name)),
-            range(min.map(double), max.map(double)),
-        ),
-        Kind::Integer { min, max, .. } => (
-            of_type.into(),
-            range(
-                min.map(|value| value.to_string()),
-                max.map(|value| value.to_string()),
-            ),
-        ),
+        Kind::Real {
+            single,
+            unit,
+            min,
+            max,
+            ..
+        } => {
+            let number = if *single { float } else { double };
+            (
+                format!("{of_type}, {}", escape(unit.name)),
+                range(min.map(number), max.map(number)),
+            )
+        }
+        Kind::Integer { of, min, max, .. } => {
+            let (min, max) = if standard.is_fmi3() {
+                (*min, *max)
+            } else {
+                bounds(*of, *min, *max)
+            };
+            let shown = |bound: Option<i128>| bound.map(|value| value.to_string());
+            (of_type.into(), range(shown(min), shown(max)))
+        }
         Kind::Boolean { .. } | Kind::String { .. } => (of_type.into(), String::new()),
+        Kind::Binary {
+            mime_type,
+            max_size,
+            ..
+        } => (
+            format!("{of_type}, {}", escape(mime_type)),
+            max_size.map_or(String::new(), |most| format!("≤ {most} bytes")),
+        ),
         Kind::Enumeration { of, .. } => (
             format!("<a href=\"#{0}\">{0}</a>", escape(of.name)),
             String::new(),
@@ -156,10 +176,16 @@ fn describe(standard: Standard, kind: &Kind) -> (String, String) {
 /// The start value, for humans.
 fn shown(kind: &Kind) -> String {
     match kind {
+        Kind::Real {
+            single: true,
+            start,
+            ..
+        } => float(*start),
         Kind::Real { start, .. } => double(*start),
         Kind::Integer { start, .. } => start.to_string(),
         Kind::Boolean { start } => start.to_string(),
         Kind::String { start } => start.clone(),
+        Kind::Binary { start, .. } => hexadecimal(start),
         Kind::Enumeration { of, start, .. } => {
             let item = of.items.iter().find(|item| item.value == *start);
             format!("{start} {}", item.map_or("", |item| item.name))

@@ -14,7 +14,7 @@ use crate::schema::{
     Kind as Element, LogCategories, ModelStructure, ModelVariables, Root, ScalarVariable,
     SimpleType, TypeDefinitions, Unit, UnitDefinitions, Unknown, Unknowns,
 };
-use fmu_declaration::{Causality, Declared, Variability};
+use fmu_declaration::{Causality, Declared, IntegerType, Variability};
 use serde::Serialize;
 
 /// Log categories and their descriptions: those of the `export` crate, and the one that stands for all.
@@ -31,7 +31,8 @@ pub const LOG_CATEGORIES: [(&str, &str); 4] = [
 /// Writes the description.
 ///
 /// # Panics
-/// When quick-xml cannot write our own elements: a programming error that the first test shows.
+/// When FMI 2.0 has no type for a variable ([`Interface::beyond_fmi2`]), or quick-xml cannot write our own elements: a programming error
+/// that the first test shows.
 pub fn write(interface: &Interface, package: Package<'_>) -> String {
     text(&root(interface, package))
 }
@@ -48,6 +49,9 @@ pub(crate) fn text(root: &impl Serialize) -> String {
 }
 
 fn root(interface: &Interface, package: Package<'_>) -> Root {
+    if let Some(Entry { name, .. }) = interface.beyond_fmi2() {
+        panic!("{name}: FMI 2.0 has no type for it");
+    }
     Root {
         fmi_version: "2.0".into(),
         model_name: interface.name.into(),
@@ -196,6 +200,7 @@ fn element(entry: &Entry) -> Element {
             start,
             min,
             max,
+            ..
         } => Element::Real(Attributes {
             unit: Some(unit.name.into()),
             display_unit: unit.display.map(|display| display.name.into()),
@@ -203,13 +208,22 @@ fn element(entry: &Entry) -> Element {
             max: max.map(double),
             ..plain(double(*start))
         }),
-        Kind::Integer { start, min, max } => Element::Integer(Attributes {
-            min: min.map(|value| value.to_string()),
-            max: max.map(|value| value.to_string()),
-            ..plain(start.to_string())
-        }),
+        Kind::Integer {
+            of,
+            start,
+            min,
+            max,
+        } => {
+            let (min, max) = bounds(*of, *min, *max);
+            Element::Integer(Attributes {
+                min: min.map(|value| value.to_string()),
+                max: max.map(|value| value.to_string()),
+                ..plain(start.to_string())
+            })
+        }
         Kind::Boolean { start } => Element::Boolean(plain(start.to_string())),
         Kind::String { start } => Element::String(plain(start.clone())),
+        Kind::Binary { .. } => unreachable!("{}: FMI 2.0 has no type Binary", entry.name),
         Kind::Enumeration {
             of,
             declared,
@@ -229,6 +243,17 @@ fn element(entry: &Entry) -> Element {
             }
         }
     }
+}
+
+/// Bounds of an integer: a smaller type has its own where an fmi2Integer has none.
+pub(crate) fn bounds(
+    of: IntegerType,
+    min: Option<i128>,
+    max: Option<i128>,
+) -> (Option<i128>, Option<i128>) {
+    let small = of != IntegerType::Int32;
+    let or = |bound: Option<i128>, own| bound.or(small.then_some(own));
+    (or(min, of.low()), or(max, of.high()))
 }
 
 fn structure(interface: &Interface) -> ModelStructure {

@@ -4,6 +4,7 @@
 //! * Exactly one variable is the independent one: `time` (section 2.4.7).
 //! * Inputs and parameters have a start value, what the model computes is `calculated` without one (2.4.7.5).
 //! * A row with items is an Enumeration however FMI 2.0 declares it: there is no importer of FMI 3.0 that drops them.
+//! * A Binary's start value is an element with hexadecimal digits, a String's one with the text (2.4.7.2).
 //! * In co-simulation no output depends on an input at the same communication point: `dependencies=""` (2.4.8).
 //! * In scheduled execution a tick reads its inputs and writes its outputs at one time: without `dependencies` an output
 //!   depends on all (2.4.8). What a tick reads and writes belongs to its clock, the one clock there is, and no such variable is
@@ -22,7 +23,7 @@ use crate::schema3::{
 use crate::standard::Standard;
 use crate::xml::{self, causality, double, spaced, variability};
 use fmu_declaration::unit::SECOND;
-use fmu_declaration::{Causality, Stepping, Variability};
+use fmu_declaration::{Causality, IntegerType, Stepping, Variability};
 
 /// Writes the description for co-simulation or scheduled execution.
 ///
@@ -134,6 +135,22 @@ fn clock(interface: &Interface) -> Variable {
     })
 }
 
+/// An element that is named by its type.
+type Element = fn(Attributes) -> Variable;
+
+fn integer(of: IntegerType) -> Element {
+    match of {
+        IntegerType::Int8 => Variable::Int8,
+        IntegerType::UInt8 => Variable::UInt8,
+        IntegerType::Int16 => Variable::Int16,
+        IntegerType::UInt16 => Variable::UInt16,
+        IntegerType::Int32 => Variable::Int32,
+        IntegerType::UInt32 => Variable::UInt32,
+        IntegerType::Int64 => Variable::Int64,
+        IntegerType::UInt64 => Variable::UInt64,
+    }
+}
+
 fn variable(array: &Array<'_>, scheduled: bool) -> Variable {
     let first = array.first();
     let computed = first.is_calculated();
@@ -161,14 +178,27 @@ fn variable(array: &Array<'_>, scheduled: bool) -> Variable {
         ..Attributes::default()
     };
     match &first.kind {
-        Kind::Real { unit, min, max, .. } => Variable::Float64(Attributes {
-            unit: Some(unit.name.into()),
-            display_unit: unit.display.map(|display| display.name.into()),
-            min: min.map(double),
-            max: max.map(double),
-            ..common
-        }),
-        Kind::Integer { min, max, .. } => Variable::Int32(Attributes {
+        Kind::Real {
+            single,
+            unit,
+            min,
+            max,
+            ..
+        } => {
+            let (element, number): (Element, fn(f64) -> String) = if *single {
+                (Variable::Float32, float)
+            } else {
+                (Variable::Float64, double)
+            };
+            element(Attributes {
+                unit: Some(unit.name.into()),
+                display_unit: unit.display.map(|display| display.name.into()),
+                min: min.map(number),
+                max: max.map(number),
+                ..common
+            })
+        }
+        Kind::Integer { of, min, max, .. } => integer(*of)(Attributes {
             min: min.map(|value| value.to_string()),
             max: max.map(|value| value.to_string()),
             ..common
@@ -176,7 +206,18 @@ fn variable(array: &Array<'_>, scheduled: bool) -> Variable {
         Kind::Boolean { .. } => Variable::Boolean(common),
         Kind::String { .. } => Variable::String(Attributes {
             start: None,
-            starts: strings(array),
+            starts: elements(array),
+            ..common
+        }),
+        Kind::Binary {
+            mime_type,
+            max_size,
+            ..
+        } => Variable::Binary(Attributes {
+            start: None,
+            starts: elements(array),
+            mime_type: Some((*mime_type).into()),
+            max_size: *max_size,
             ..common
         }),
         Kind::Enumeration { of, .. } => Variable::Enumeration(Attributes {
@@ -196,24 +237,44 @@ fn is_clocked(entry: &Entry) -> bool {
 /// The start value as the attribute has it.
 fn start(kind: &Kind) -> String {
     match kind {
+        Kind::Real {
+            single: true,
+            start,
+            ..
+        } => float(*start),
         Kind::Real { start, .. } => double(*start),
-        Kind::Integer { start, .. } | Kind::Enumeration { start, .. } => start.to_string(),
+        Kind::Integer { start, .. } => start.to_string(),
+        Kind::Enumeration { start, .. } => start.to_string(),
         Kind::Boolean { start } => start.to_string(),
-        Kind::String { .. } => String::new(),
+        Kind::String { .. } | Kind::Binary { .. } => String::new(), // as elements
     }
 }
 
-/// Start values of Strings, which are elements.
-fn strings(array: &Array<'_>) -> Vec<Start> {
+/// Start values of Strings and Binaries, which are elements.
+fn elements(array: &Array<'_>) -> Vec<Start> {
     let given = array.elements.iter().filter(|entry| !entry.is_calculated());
+    let value = |entry: &Entry| match &entry.kind {
+        Kind::String { start } => Some(start.clone()),
+        Kind::Binary { start, .. } => Some(hexadecimal(start)),
+        _ => None,
+    };
     given
-        .filter_map(|entry| match &entry.kind {
-            Kind::String { start } => Some(Start {
-                value: start.clone(),
-            }),
-            _ => None,
+        .filter_map(|entry| {
+            Some(Start {
+                value: value(entry)?,
+            })
         })
         .collect()
+}
+
+/// Bytes as xs:hexBinary.
+pub(crate) fn hexadecimal(bytes: &[u8]) -> String {
+    bytes.iter().map(|byte| format!("{byte:02X}")).collect()
+}
+
+/// A finite number of single precision as xs:float: the shortest text that reads back to the same bits.
+pub(crate) fn float(value: f64) -> String {
+    format!("{:?}", value as f32)
 }
 
 fn structure(interface: &Interface, arrays: &[Array<'_>], scheduled: bool) -> ModelStructure {

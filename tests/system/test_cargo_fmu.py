@@ -61,6 +61,8 @@ def test_of_several_models_in_a_workspace_one_must_be_named(tmp_path: Path) -> N
             "[package.metadata.fmu]: unknown field `logo`, expected one of `author`",
         ),
         ({"more": "[package.metadata.fmu]\nicon = 'Cargo.toml'\n"}, 'icon = "Cargo.toml": expected a PNG file'),
+        ({"more": "[package.metadata.fmu]\nfmi = ['4.0']\n"}, "unknown variant `4.0`, expected `2.0` or `3.0`"),
+        ({"more": "[package.metadata.fmu]\nfmi = []\n"}, 'fmi = []: expected ["2.0"], ["3.0"] or both'),
         (
             {"more": "[package.metadata.fmu]\nguide = 'no.html'\n"},
             'guide = "no.html": expected a path beside Cargo.toml',

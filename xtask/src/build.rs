@@ -13,6 +13,14 @@ pub const LAG: &str = "lag";
 /// The smallest model, `modelDescription/export/examples/integrator.rs`.
 pub const SMALLEST: &str = "integrator";
 
+/// A model with every type of FMI 3.0, and one with those types that FMI 2.0 can show, both in `modelDescription/export/examples`.
+pub const EVERY_TYPE: &str = "feedthrough";
+/// See [`EVERY_TYPE`].
+pub const SMALL_TYPES: &str = "narrow";
+
+/// The examples of which there are archives.
+pub const PACKED: [&str; 3] = [SMALLEST, EVERY_TYPE, SMALL_TYPES];
+
 /// All FMUs.
 pub fn fmus() -> Vec<Cdylib> {
     let cdylib = |fmu: &fmus::Fmu| Cdylib::example(&fmu.package(), fmu.name);
@@ -24,10 +32,11 @@ pub fn example(name: &str) -> Cdylib {
     Cdylib::example("fmu-export", name)
 }
 
-/// Builds the libraries of all FMUs and of the two examples in release mode; returns where they lie, by name.
+/// Builds the libraries of all FMUs and of the examples in release mode; returns where they lie, by name.
 pub fn libraries() -> Outcome<BTreeMap<String, PathBuf>> {
     let mut cdylibs = fmus();
-    cdylibs.extend([SMALLEST, LAG].map(example));
+    cdylibs.extend(PACKED.map(example));
+    cdylibs.push(example(LAG));
     let target = root().join("target/fmu-build");
     compile::here(&workspace(), &cdylibs, &target, "release")
 }

@@ -1,6 +1,6 @@
 //! Archives from libraries.
 
-use crate::build::{LAG, SMALLEST, libraries, library_name};
+use crate::build::{LAG, PACKED, libraries, library_name};
 use crate::catalogue::{Request, descriptions, pack};
 use crate::linked;
 use crate::process::{Outcome, at, root};
@@ -23,7 +23,9 @@ pub fn build_all(bless: bool) -> Outcome {
     for fmu in fmus::ALL {
         requests.push(request(fmu.name, &fmu.package(), &folder)?);
     }
-    requests.push(request(SMALLEST, "fmu-export", &folder.join("test"))?);
+    for example in PACKED {
+        requests.push(request(example, "fmu-export", &folder.join("test"))?);
+    }
     pack(&requests)?;
     for fmu in fmus::ALL {
         let size = |path: &Path| std::fs::metadata(path).map_or(0, |file| file.len()) / 1000;

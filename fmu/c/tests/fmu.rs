@@ -96,7 +96,9 @@ fn bits<O: Rows>(outputs: &O) -> Vec<u64> {
             Access::Integer { at, .. } | Access::Enumeration { at, .. } => {
                 bits.extend(at.values(outputs).map(|value| value as u64));
             }
-            Access::String { .. } => panic!("no output is a String"),
+            Access::Wide { .. } | Access::String { .. } | Access::Binary { .. } => {
+                panic!("no output is one")
+            }
         }
     }
     bits

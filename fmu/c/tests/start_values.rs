@@ -75,7 +75,9 @@ fn of_the_fmu<M: Declare + Default>() -> Values {
                     at.get(&start, scalar.element).into()
                 }
                 Access::Boolean { at } => u8::from(at.get(&start, scalar.element)).into(),
-                Access::String { .. } => panic!("no String here"),
+                Access::Wide { .. } | Access::String { .. } | Access::Binary { .. } => {
+                    panic!("no such value here")
+                }
             };
             (scalar.name(), value)
         })

@@ -1,6 +1,6 @@
 //! A stranger's archives: for this machine, or for many platforms.
 
-use crate::facts::Facts;
+use crate::facts::{Facts, Version};
 use crate::functions;
 use crate::inspect::inspect;
 use crate::pack::{Library, Parts, replace};
@@ -11,10 +11,54 @@ use crate::subject::Subject;
 use crate::toolchain::Toolchains;
 use crate::{compile, describe, interface, linked, platform, trace};
 use fmu_archive::archive::Contents;
-use fmu_archive::{Component, Guide, Interface, Package};
+use fmu_archive::{Component, Guide, Interface, Package, Standard};
 use std::path::{Path, PathBuf};
 
-/// Writes the archives of a model of the subject's package, of FMI 2.0 to `archive` and of FMI 3.0 beside it; returns where they lie.
+/// What became of the archives that were asked for.
+#[derive(Debug, Default)]
+pub struct Archives {
+    /// Where those lie that there are.
+    pub written: Vec<PathBuf>,
+    /// Why others cannot be: the variable, and what can be done.
+    pub refused: Vec<String>,
+}
+
+impl Archives {
+    fn add(&mut self, others: Self) {
+        self.written.extend(others.written);
+        self.refused.extend(others.refused);
+    }
+
+    /// Nothing, where all there can be is there.
+    ///
+    /// # Errors
+    /// What was refused.
+    pub fn complete(&self) -> Outcome {
+        if self.refused.is_empty() {
+            Ok(())
+        } else {
+            Err(Failure::Found(self.refused.join("\n")))
+        }
+    }
+}
+
+/// Why there is no archive of FMI 2.0, if there is none although it was asked for.
+fn refused(interface: &Interface, facts: &Facts) -> Option<String> {
+    let entry = interface.beyond_fmi2()?;
+    if !facts.fmi.contains(&Version::Fmi2) {
+        return None;
+    }
+    let (model, manifest) = (interface.name, &facts.manifest);
+    Some(format!(
+        "{model} has no archive of FMI 2.0: {} is of type {}, which FMI 2.0 does not have. The archives of FMI 3.0 are built. \
+         Where they are enough, say so in {manifest}:\n\n    [package.metadata.fmu]\n    fmi = [\"3.0\"]\n\nor give the \
+         field a type that FMI 2.0 has: f64, f32, i8, u8, i16, u16, i32, bool or String",
+        entry.name,
+        Standard::Fmi3.type_name(&entry.kind),
+    ))
+}
+
+/// Writes the archives of a model of the subject's package, of FMI 2.0 to `archive` and of FMI 3.0 beside it.
 pub(crate) fn pack(
     subject: &Subject,
     facts: &Facts,
@@ -22,7 +66,7 @@ pub(crate) fn pack(
     binaries: Vec<Library>,
     linked: Vec<Component>,
     archive: PathBuf,
-) -> Outcome<Vec<PathBuf>> {
+) -> Outcome<Archives> {
     let texts: Vec<_> = facts
         .texts
         .iter()
@@ -56,11 +100,15 @@ pub(crate) fn pack(
             .map(folder)
             .collect(),
     };
-    let written = parts.archives(&contents).map_err(Failure::Found)?;
+    let wanted = |one: &Standard| facts.fmi.contains(&Version::of(*one));
+    let written = parts.archives(&contents, wanted).map_err(Failure::Found)?;
     for (path, bytes) in &written {
         replace(path, bytes)?;
     }
-    Ok(written.into_iter().map(|(path, _)| path).collect())
+    Ok(Archives {
+        written: written.into_iter().map(|(path, _)| path).collect(),
+        refused: refused(interface, facts).into_iter().collect(),
+    })
 }
 
 /// Builds the archives of all models of the subject for this machine, into the folder `out`; without it into `fmu` in cargo's
@@ -68,13 +116,13 @@ pub(crate) fn pack(
 ///
 /// # Errors
 /// When something does not compile, a declaration breaks a rule, or a file tells of this machine.
-pub fn build(subject: &Subject, profile: &str, out: Option<&Path>) -> Outcome<Vec<PathBuf>> {
+pub fn build(subject: &Subject, profile: &str, out: Option<&Path>) -> Outcome<Archives> {
     let facts = Facts::of(&subject.package, &subject.workspace.root)?;
     let here = platform::here()?;
     let out = out.map_or_else(|| subject.workspace.target.join("fmu"), Path::to_owned);
     let target = subject.workspace.target.join("fmu-build");
     let linked = linked::components(&subject.workspace, &subject.package.name)?;
-    let mut archives = Vec::new();
+    let mut archives = Archives::default();
     for cdylib in &subject.cdylibs {
         let interface = interface::read(subject, cdylib, &target)?;
         let one = std::slice::from_ref(cdylib);
@@ -87,7 +135,7 @@ pub fn build(subject: &Subject, profile: &str, out: Option<&Path>) -> Outcome<Ve
             path,
         };
         let archive = out.join(interface.name).with_extension("fmu");
-        archives.extend(pack(
+        archives.add(pack(
             subject,
             &facts,
             &interface,
@@ -99,15 +147,19 @@ pub fn build(subject: &Subject, profile: &str, out: Option<&Path>) -> Outcome<Ve
     Ok(archives)
 }
 
-/// The variables of all models of the subject as tables: no archive is built for that.
+/// The variables of all models of the subject as tables, for the oldest version of the standard that a model has: no archive is built
+/// for that.
 ///
 /// # Errors
 /// When something does not compile, or a declaration breaks a rule.
 pub fn describe(subject: &Subject) -> Outcome<Vec<String>> {
+    let facts = Facts::of(&subject.package, &subject.workspace.root)?;
     let target = subject.workspace.target.join("fmu-build");
     let table = |cdylib| {
         let interface = interface::read(subject, cdylib, &target)?;
-        let xml = fmu_archive::xml(&interface, Package::default());
+        let standard = Standard::of(&interface).find(|one| facts.fmi.contains(&Version::of(*one)));
+        let standard = standard.unwrap_or(Standard::Fmi3);
+        let xml = standard.description(&interface, Package::default());
         describe::table(&xml).map_err(|error| Failure::Found(error.to_string()))
     };
     subject.cdylibs.iter().map(table).collect()
@@ -152,7 +204,7 @@ pub fn dist(
     platforms: &[&'static Platform],
     tools: &Toolchains,
     out: Option<&Path>,
-) -> Outcome<(Vec<PathBuf>, Vec<Row>)> {
+) -> Outcome<(Archives, Vec<Row>)> {
     let facts = Facts::of(&subject.package, &subject.workspace.root)?;
     let workspace = &subject.workspace;
     let target = workspace.target.join("fmu-build");
@@ -220,7 +272,54 @@ pub fn dist(
             archive,
         )
     };
-    let archives = interfaces.iter().zip(binaries).map(archive);
-    let archives: Vec<_> = archives.collect::<Outcome<_>>()?;
-    Ok((archives.concat(), rows))
+    let mut archives = Archives::default();
+    for one in interfaces.iter().zip(binaries).map(archive) {
+        archives.add(one?);
+    }
+    Ok((archives, rows))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use fmu_export::declaration::{Declare, Description, Experiment, Stepping};
+
+    /// A model with one variable that FMI 2.0 has no type for.
+    #[derive(Default, fmu_export::Rows)]
+    struct Counter {
+        /// what is counted
+        #[input]
+        counted: [bool; 2],
+        /// how often
+        #[output]
+        count: [u32; 2],
+    }
+
+    impl Declare for Counter {
+        const DESCRIPTION: Description<Self> = Description {
+            name: "Counter",
+            about: "counts",
+            stepping: Stepping::Exact,
+            experiment: Experiment {
+                start: 0.0,
+                stop: 1.0,
+                tolerance: 1e-6,
+                step: 0.1,
+            },
+            variables: <Self as fmu_export::declaration::Rows>::ROWS,
+        };
+    }
+
+    #[test]
+    fn a_variable_without_a_type_in_fmi_2_is_named_unless_fmi_3_alone_is_asked_for() {
+        let interface = Interface::of::<Counter>().unwrap();
+        let asking = |fmi: &[Version]| Facts {
+            fmi: fmi.to_vec(),
+            ..Facts::default()
+        };
+        let said = refused(&interface, &asking(&[Version::Fmi2, Version::Fmi3])).unwrap();
+        assert!(said.contains("count[1] is of type UInt32"), "{said}");
+        assert!(said.contains("fmi = [\"3.0\"]"), "{said}");
+        assert_eq!(refused(&interface, &asking(&[Version::Fmi3])), None);
+    }
 }

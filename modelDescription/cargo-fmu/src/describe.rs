@@ -9,7 +9,7 @@ use std::io::Read as _;
 use std::path::Path;
 
 /// What the table shows of a variable; the last one is as wide as it is.
-const COLUMNS: [&str; 9] = [
+const COLUMNS: [&str; 11] = [
     "name",
     "type",
     "causality",
@@ -18,8 +18,13 @@ const COLUMNS: [&str; 9] = [
     "start",
     "min",
     "max",
+    "maxSize",
+    "mimeType",
     "description",
 ];
+
+/// Those that the table has only where a variable does: a Binary.
+const RARE: [&str; 2] = ["maxSize", "mimeType"];
 
 type Attributes = BTreeMap<String, String>;
 
@@ -58,18 +63,26 @@ pub fn table(xml: &str) -> Result<String, quick_xml::Error> {
     text.push_str("\n\n");
     let cell =
         |variable: &Attributes, column: &str| variable.get(column).cloned().unwrap_or_default();
-    let head = COLUMNS.map(str::to_owned);
-    let rows = variables
+    let has = |column: &str| variables.iter().any(|one| one.contains_key(column));
+    let columns = COLUMNS
         .iter()
-        .map(|variable| COLUMNS.map(|column| cell(variable, column)));
-    let rows: Vec<_> = std::iter::once(head).chain(rows).collect();
+        .filter(|column| !RARE.contains(column) || has(column));
+    let columns: Vec<_> = columns.copied().collect();
+    let head = columns.iter().map(|column| (*column).to_owned()).collect();
+    let rows = variables.iter().map(|variable| {
+        columns
+            .iter()
+            .map(|column| cell(variable, column))
+            .collect()
+    });
+    let rows: Vec<Vec<String>> = std::iter::once(head).chain(rows).collect();
     let width = |i: usize| {
         rows.iter()
             .map(|row| row[i].chars().count())
             .max()
             .unwrap_or(0)
     };
-    let widths: Vec<_> = (0..COLUMNS.len()).map(width).collect();
+    let widths: Vec<_> = (0..columns.len()).map(width).collect();
     for row in &rows {
         let cells = row.iter().zip(&widths).filter(|(_, width)| **width > 0);
         let line: Vec<_> = cells
@@ -140,8 +153,11 @@ fn inner(variable: &mut Attributes, outer: &str, name: &str, told: Attributes) {
             }
         }
         (_, "Start") => {
-            let value = told.get("value").cloned().unwrap_or_default();
-            variable.insert("start".to_owned(), value);
+            // One element for each element of an array.
+            let value = told.get("value").map_or("", String::as_str);
+            let start = variable.get("start");
+            let start = start.map_or(value.to_owned(), |before| format!("{before} {value}"));
+            variable.insert("start".to_owned(), start);
         }
         _ => {}
     }
@@ -175,6 +191,26 @@ mod tests {
              F     Real     input      continuous   N     0.0         5    force\n\
              n     Integer  output\n"
         );
+    }
+
+    #[test]
+    fn a_binary_shows_what_its_bytes_are_and_how_many_there_may_be() {
+        let xml = r#"<fmiModelDescription fmiVersion="3.0" modelName="Eye"><ModelVariables>
+            <Binary name="png" valueReference="0" causality="parameter" mimeType="image/png" maxSize="4"><Dimension start="2"/>
+            <Start value="00FF"/><Start value="10"/></Binary>
+            </ModelVariables></fmiModelDescription>"#;
+        let table = table(xml).unwrap();
+        let last: Vec<_> = table.lines().last().unwrap().split_whitespace().collect();
+        let expected = [
+            "png[2]",
+            "Binary",
+            "parameter",
+            "00FF",
+            "10",
+            "4",
+            "image/png",
+        ];
+        assert_eq!(last, expected, "{table}");
     }
 
     #[test]

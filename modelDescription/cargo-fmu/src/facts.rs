@@ -10,11 +10,13 @@
 //! picture = "signs.svg"                       # signs and frames, in the interface document
 //! resources = "resources"                     # a folder, which the model finds again at run time
 //! extra = "extra"                             # a folder, for layered standards
+//! fmi = ["3.0"]                               # the versions of the standard; without it "2.0" and "3.0"
 //! ```
 
 use crate::linked;
 use crate::process::{Failure, Outcome, at};
 use cargo_metadata::Package;
+use fmu_archive::Standard;
 use serde::Deserialize;
 use std::path::Path;
 
@@ -39,6 +41,32 @@ pub struct Facts {
     pub picture: String,
     /// Other files of the archive, by their path.
     pub extra: Vec<(String, Vec<u8>)>,
+    /// The versions of the standard for which there are archives.
+    pub fmi: Vec<Version>,
+    /// The file that says it all.
+    pub manifest: String,
+}
+
+/// A version of the standard.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+pub enum Version {
+    /// FMI 2.0
+    #[serde(rename = "2.0")]
+    Fmi2,
+    /// FMI 3.0
+    #[serde(rename = "3.0")]
+    Fmi3,
+}
+
+impl Version {
+    /// That of an archive.
+    pub const fn of(standard: Standard) -> Self {
+        if standard.is_fmi3() {
+            Self::Fmi3
+        } else {
+            Self::Fmi2
+        }
+    }
 }
 
 #[derive(Debug, Default, Deserialize)]
@@ -52,6 +80,7 @@ struct Table {
     picture: Option<String>,
     resources: Option<String>,
     extra: Option<String>,
+    fmi: Option<Vec<Version>>,
 }
 
 impl Facts {
@@ -118,7 +147,18 @@ impl Facts {
             }
             None => found(package, folder, root)?,
         };
+        let fmi = table
+            .fmi
+            .unwrap_or_else(|| vec![Version::Fmi2, Version::Fmi3]);
+        if fmi.is_empty() {
+            let manifest = &package.manifest_path;
+            return Err(Failure::Found(format!(
+                "{manifest}: [package.metadata.fmu]: fmi = []: expected [\"2.0\"], [\"3.0\"] or both"
+            )));
+        }
         Ok(Self {
+            fmi,
+            manifest: package.manifest_path.to_string(),
             version: package.version.to_string(),
             author: table.author.unwrap_or_else(|| package.authors.join(", ")),
             copyright: table.copyright.unwrap_or_default(),

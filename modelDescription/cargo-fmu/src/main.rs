@@ -89,6 +89,7 @@ What the FMU says of its author comes from Cargo.toml: version, authors, license
     picture = \"signs.svg\"                    # signs and frames, in the interface document
     resources = \"resources\"                  # a folder, which the model finds again at run time
     extra = \"extra\"                          # a folder, for layered standards
+    fmi = [\"3.0\"]                            # the versions of the standard; without it \"2.0\" and \"3.0\"
 
 RUSTFLAGS and the flags in cargo's configuration do not apply: the same source gives the same library everywhere.";
 
@@ -139,10 +140,11 @@ fn run(command: Command) -> Outcome {
             release: _,
             out,
         } => {
-            for archive in archive::build(&choice.subject()?, &profile, out.as_deref())? {
+            let archives = archive::build(&choice.subject()?, &profile, out.as_deref())?;
+            for archive in &archives.written {
                 println!("{}", archive.display());
             }
-            Ok(())
+            archives.complete()
         }
         Command::Dist {
             choice,
@@ -158,7 +160,9 @@ fn run(command: Command) -> Outcome {
             if fmu.is_empty() {
                 let subject = choice.subject()?;
                 let validator = check::validator(validator.as_deref(), Some(&subject))?;
-                check::archives(&archive::build(&subject, "release", None)?, &validator)
+                let archives = archive::build(&subject, "release", None)?;
+                check::archives(&archives.written, &validator)?;
+                archives.complete()
             } else {
                 // The SDK's validator serves archives of others, too.
                 let subject = choice.subject().ok();
@@ -201,9 +205,10 @@ fn dist(
         let state = if row.built { "built   " } else { "LEFT OUT" };
         println!("{state} {:<15} {}", row.platform.folder, row.said);
     }
-    for archive in archives {
+    for archive in &archives.written {
         println!("{}", archive.display());
     }
+    archives.complete()?;
     match rows.iter().find(|row| !row.built && !wanted.is_empty()) {
         None => Ok(()),
         Some(row) => Err(Failure::Found(format!(

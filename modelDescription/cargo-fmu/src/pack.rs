@@ -70,14 +70,19 @@ impl Parts {
 }
 
 impl Parts {
-    /// The archives of all standards that the model has, each with its place.
+    /// The archives of all standards that the model has and that are `wanted`, each with its place.
     ///
     /// # Errors
     /// As [`bytes`](Self::bytes).
-    pub fn archives(&self, contents: &Contents<'_>) -> Result<Vec<(PathBuf, Vec<u8>)>, String> {
+    pub fn archives(
+        &self,
+        contents: &Contents<'_>,
+        wanted: impl Fn(&Standard) -> bool,
+    ) -> Result<Vec<(PathBuf, Vec<u8>)>, String> {
         let folder = self.archive.parent().unwrap_or(Path::new(""));
         let file = self.archive.file_name().unwrap_or_default();
         Standard::of(contents.interface)
+            .filter(wanted)
             .map(|standard| {
                 let bytes = self.bytes(&Contents {
                     standard,

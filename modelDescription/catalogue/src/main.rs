@@ -17,9 +17,15 @@ use fmu_archive::Standard;
 use std::path::Path;
 use std::process::ExitCode;
 
-/// The smallest example: packed for the tests, no FMU of the project.
+/// The smallest example: packed for the tests, no FMU of the project. So are the next two, with every type of variable.
 #[path = "../../export/examples/integrator.rs"]
 mod integrator;
+
+#[path = "../../export/examples/feedthrough/model.rs"]
+mod feedthrough;
+
+#[path = "../../export/examples/narrow/model.rs"]
+mod narrow;
 
 const USAGE: &str = "usage: catalogue descriptions | bless | archives REQUESTS | tables FOLDER | law-headers FOLDER | law-documents REQUEST | laws";
 
@@ -72,11 +78,15 @@ fn archives(requests: &Path) -> Result<(), String> {
     let text = std::fs::read_to_string(requests).map_err(at(requests))?;
     let requests: Vec<Request> =
         serde_json::from_str(&text).map_err(|error| format!("{}: {error}", requests.display()))?;
-    let example = Fmu::example::<integrator::Integrator>("integrator");
+    let examples = [
+        Fmu::example::<integrator::Integrator>("integrator"),
+        Fmu::example::<feedthrough::Feedthrough>("feedthrough"),
+        Fmu::example::<narrow::Narrow>("narrow"),
+    ];
     for request in requests {
-        let listed = Fmu::named(&request.name);
-        let fmu = listed
-            .or((request.name == example.name).then_some(&example))
+        let mut all = FMUS.iter().chain(&examples);
+        let fmu = all
+            .find(|fmu| fmu.name == request.name)
             .ok_or_else(|| format!("no FMU is named {}", request.name))?;
         for (path, bytes) in request.archives(fmu)? {
             replace(&path, &bytes).map_err(said)?;

@@ -28,7 +28,7 @@ impl Request {
             .map_err(|error| format!("declaration of {}: {error}", fmu.name))?;
         let extra = extra::of(fmu.name)?;
         let what = fmu.what.to_owned() + extra::told(&extra);
-        self.parts.archives(&Contents {
+        let contents = Contents {
             package: PACKAGE,
             guide: Guide {
                 what: &what,
@@ -40,7 +40,8 @@ impl Request {
             terminals: &terminals::of(fmu.name),
             extra: &extra,
             ..Contents::of(&interface)
-        })
+        };
+        self.parts.archives(&contents, |_| true)
     }
 }
 

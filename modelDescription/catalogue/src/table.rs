@@ -54,9 +54,8 @@ pub fn of(interface: &Interface) -> String {
                 writeln!(text, "integer-output {reference}")
             }
             (Kind::Boolean { .. }, false) => writeln!(text, "boolean-output {reference}"),
-            (Kind::Integer { .. } | Kind::Enumeration { .. }, true) | (Kind::String { .. }, _) => {
-                Ok(())
-            }
+            (Kind::Integer { .. } | Kind::Enumeration { .. }, true)
+            | (Kind::String { .. } | Kind::Binary { .. }, _) => Ok(()),
         };
     }
     text

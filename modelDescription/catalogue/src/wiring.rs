@@ -302,8 +302,8 @@ mod tests {
                     }
                     Kind::Integer { min, max, .. } => {
                         value.fract() == 0.0
-                            && min.is_none_or(|min| f64::from(min) <= value)
-                            && max.is_none_or(|max| value <= f64::from(max))
+                            && min.is_none_or(|min| min as f64 <= value)
+                            && max.is_none_or(|max| value <= max as f64)
                     }
                     _ => false,
                 };

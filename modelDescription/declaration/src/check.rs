@@ -1,6 +1,5 @@
 //! A struct's values held against its rows.
 
-use crate::place::Stored;
 use crate::unit::NONE;
 use crate::{Access, Causality, Enumeration, Variable};
 
@@ -11,7 +10,7 @@ pub struct Objection {
     pub name: &'static str,
     /// The element, from 1; `None` for a scalar.
     pub element: Option<usize>,
-    /// The value.
+    /// The value; of a Binary its size.
     pub value: f64,
     /// What was expected.
     pub expected: Expected,
@@ -75,6 +74,7 @@ fn bounds<M>(row: &Variable<M>) -> (&'static str, f64, f64) {
     match &row.access {
         Access::Real { unit, range, .. } => (unit.name, range.low, range.high),
         Access::Integer { min, max, .. } => (NONE.name, (*min).into(), (*max).into()),
+        Access::Wide { min, max, .. } => (NONE.name, min.get() as f64, max.get() as f64),
         Access::Enumeration { of, .. } => {
             let item = |item: Option<&crate::Item>| item.map_or(f64::NAN, |item| item.value.into());
             (NONE.name, item(of.items.first()), item(of.items.last()))
@@ -82,6 +82,12 @@ fn bounds<M>(row: &Variable<M>) -> (&'static str, f64, f64) {
         Access::Boolean { .. } => (NONE.name, 0.0, 1.0),
         #[cfg(feature = "std")]
         Access::String { .. } => (NONE.name, f64::NAN, f64::NAN),
+        #[cfg(feature = "std")]
+        Access::Binary { max_size, .. } => (
+            NONE.name,
+            0.0,
+            max_size.map_or(f64::INFINITY, |most| most as f64),
+        ),
     }
 }
 
@@ -90,9 +96,10 @@ fn objection<M>(model: &M, row: &Variable<M>, i: usize) -> Option<(f64, Expected
     match &row.access {
         Access::Real { range, at, .. } => {
             let value = at.get(model, i);
-            let range = match at.layout().2 {
-                Stored::Single => range.single(),
-                Stored::AsIs | Stored::Word => *range,
+            let range = if at.is_single() {
+                range.single()
+            } else {
+                *range
             };
             let accepted = range.contains(value) || (row.may_be_nan && !value.is_finite());
             (!accepted).then_some((value, Expected::Text(range.expected)))
@@ -102,6 +109,11 @@ fn objection<M>(model: &M, row: &Variable<M>, i: usize) -> Option<(f64, Expected
             let accepted = (*min..=*max).contains(&value);
             (!accepted).then_some((f64::from(value), Expected::Integers(*min, *max)))
         }
+        Access::Wide { min, max, at } => {
+            let value = at.get(model, i);
+            let accepted = (min.get()..=max.get()).contains(&value);
+            (!accepted).then_some((value as f64, Expected::Text("an integer within the bounds")))
+        }
         Access::Boolean { at } => {
             let word = at.word(model, i);
             let accepted = word == 0 || word == 1;
@@ -109,6 +121,12 @@ fn objection<M>(model: &M, row: &Variable<M>, i: usize) -> Option<(f64, Expected
         }
         #[cfg(feature = "std")]
         Access::String { .. } => None,
+        #[cfg(feature = "std")]
+        Access::Binary { max_size, at, .. } => {
+            let most = max_size.unwrap_or(usize::MAX);
+            let size = at.get(model, i).len();
+            (size > most).then_some((size as f64, Expected::Text("no more bytes than the bound")))
+        }
         Access::Enumeration { of, at, .. } => {
             let value = at.get(model, i);
             let accepted = of.items.iter().any(|item| item.value == value);

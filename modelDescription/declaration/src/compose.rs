@@ -33,6 +33,34 @@ use crate::variable::{Access, IN_ORDER, Variable};
 /// struct Foreign {
 ///     /// No type of the interface.
 ///     #[parameter(0)]
+///     x: u128,
+/// }
+/// ```
+///
+/// ```compile_fail
+/// #[derive(fmu_declaration::Rows)]
+/// struct Beyond {
+///     /// No u8 is 256.
+///     #[parameter(0, integers = 0..=256)]
+///     x: u8,
+/// }
+/// ```
+///
+/// ```compile_fail
+/// #[derive(fmu_declaration::Rows)]
+/// struct Beyond {
+///     /// No f32 is 1e39.
+///     #[parameter(0, range = 0.0..=1e39)]
+///     x: f32,
+/// }
+/// const ROWS: usize = <Beyond as fmu_declaration::Rows>::ROWS.len();
+/// ```
+///
+/// ```compile_fail
+/// #[derive(fmu_declaration::Rows)]
+/// struct Misplaced {
+///     /// Integers have no unit.
+///     #[parameter(0, unit = METRE)]
 ///     x: u8,
 /// }
 /// ```
@@ -141,9 +169,24 @@ const fn in_whole<M, S>(row: &Variable<S>, part: Part) -> Variable<M> {
             max: *max,
             at: place!(at),
         },
+        Access::Wide { min, max, at } => Access::Wide {
+            min: *min,
+            max: *max,
+            at: place!(at),
+        },
         Access::Boolean { at } => Access::Boolean { at: place!(at) },
         #[cfg(feature = "std")]
         Access::String { at } => Access::String { at: place!(at) },
+        #[cfg(feature = "std")]
+        Access::Binary {
+            mime_type,
+            max_size,
+            at,
+        } => Access::Binary {
+            mime_type,
+            max_size: *max_size,
+            at: place!(at),
+        },
         Access::Enumeration { of, declared, at } => Access::Enumeration {
             of,
             declared: *declared,

@@ -1,6 +1,6 @@
 //! What identifies an interface.
 
-use crate::{Access, Declare, Description, Unit, provenance};
+use crate::{Access, Declare, Description, IntegerType, Unit, provenance};
 use core::fmt::Write as _;
 
 impl<M: Declare> Description<M> {
@@ -15,13 +15,29 @@ impl<M: Declare> Description<M> {
             let kind = match &v.access {
                 Access::Real { unit, range, at } => {
                     let (min, max) = (range.low, range.high);
-                    format!("{} {min} {max} {:?}", of_unit(unit), at.get(&start, i))
+                    let single = if at.is_single() { " single" } else { "" };
+                    let unit = of_unit(unit);
+                    format!("{unit} {min} {max} {:?}{single}", at.get(&start, i))
                 }
                 Access::Integer { min, max, at } => {
-                    format!("Integer {min} {max} {}", at.get(&start, i))
+                    let of = match at.integer_type() {
+                        IntegerType::Int32 => "Integer", // as it was before there were others
+                        of => of.name(),
+                    };
+                    format!("{of} {min} {max} {}", at.get(&start, i))
+                }
+                Access::Wide { min, max, at } => {
+                    let of = at.integer_type().name();
+                    let (min, max) = (min.get(), max.get());
+                    format!("{of} {min} {max} {}", at.get(&start, i))
                 }
                 Access::Boolean { at } => format!("Boolean {}", at.get(&start, i)),
                 Access::String { at } => format!("String {:?}", at.get(&start, i)),
+                Access::Binary {
+                    mime_type,
+                    max_size,
+                    at,
+                } => format!("Binary {mime_type} {max_size:?} {:?}", at.get(&start, i)),
                 Access::Enumeration { of, declared, at } => {
                     let items: Vec<_> = of
                         .items

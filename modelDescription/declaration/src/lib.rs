@@ -40,6 +40,7 @@
 //! |---|---|
 //! | [`variable`] | the row: [`Variable`], its type, causality, variability |
 //! | [`place`] | where its values lie in the model |
+//! | [`integer`] | the types of integers |
 //! | [`mod@range`] | what a number may be |
 //! | [`mod@unit`] | units with their SI base exponents |
 //! | [`compose`] | rows of parts and of arrays of parts |
@@ -61,6 +62,7 @@ pub mod compose;
 pub mod description;
 #[cfg(feature = "std")]
 pub mod guid;
+pub mod integer;
 pub mod place;
 #[cfg(feature = "std")]
 pub mod provenance;
@@ -74,6 +76,7 @@ pub mod variable;
 pub use compose::Rows;
 pub use description::{Declare, Description, Experiment, Scalar, Stepping};
 pub use fmu_declaration_derive::{Rows, Start};
+pub use integer::IntegerType;
 pub use place::{Place, Value};
 #[cfg(feature = "std")]
 pub use provenance::Provenance;

@@ -1,5 +1,6 @@
 //! Where a row's values lie in the struct that holds them.
 
+use crate::integer::IntegerType;
 use core::marker::PhantomData;
 
 /// The place of a row's values in the struct `M`: an offset, and a stride where there are several. The interface sees
@@ -32,13 +33,16 @@ pub enum Stored {
     Single,
     /// A Boolean as a 32-bit integer, 0 or 1: what C hands over may be any bits.
     Word,
+    /// An integer of another type than `i32`.
+    Integer(IntegerType),
 }
 
 mod sealed {
     pub trait Sealed {}
 }
 
-/// A type of the interface: `f64`, `i32`, `bool` and, with the feature `std`, `String`.
+/// A type of the interface: `f64`, `i32`, `bool`, `i128` for integers beyond 32 bits, and, with the feature `std`, `String`
+/// and `Vec<u8>`.
 pub trait Value: sealed::Sealed + Clone + 'static {
     /// Reads the value at `place`.
     ///
@@ -47,7 +51,8 @@ pub trait Value: sealed::Sealed + Clone + 'static {
     #[doc(hidden)]
     unsafe fn read(place: *const u8, stored: Stored) -> Self;
 
-    /// Writes the value to `place`.
+    /// Writes the value to `place`. One that the stored type does not hold loses its leading bits, so it is held against
+    /// its row before.
     ///
     /// # Safety
     /// `place` points to a valid value of the stored type, which may be written.
@@ -57,22 +62,24 @@ pub trait Value: sealed::Sealed + Clone + 'static {
 
 impl sealed::Sealed for f64 {}
 impl Value for f64 {
+    #[inline]
     unsafe fn read(place: *const u8, stored: Stored) -> Self {
         // SAFETY: the caller's contract.
         unsafe {
             match stored {
                 Stored::Single => f64::from(*place.cast::<f32>()),
-                Stored::AsIs | Stored::Word => *place.cast(),
+                _ => *place.cast(),
             }
         }
     }
 
+    #[inline]
     unsafe fn write(self, place: *mut u8, stored: Stored) {
         // SAFETY: the caller's contract.
         unsafe {
             match stored {
                 Stored::Single => *place.cast() = self as f32,
-                Stored::AsIs | Stored::Word => *place.cast() = self,
+                _ => *place.cast() = self,
             }
         }
     }
@@ -80,14 +87,87 @@ impl Value for f64 {
 
 impl sealed::Sealed for i32 {}
 impl Value for i32 {
-    unsafe fn read(place: *const u8, _: Stored) -> Self {
+    #[inline]
+    unsafe fn read(place: *const u8, stored: Stored) -> Self {
         // SAFETY: the caller's contract.
-        unsafe { *place.cast() }
+        unsafe {
+            match stored {
+                Stored::Integer(of) => read_small(place, of),
+                _ => *place.cast(),
+            }
+        }
     }
 
-    unsafe fn write(self, place: *mut u8, _: Stored) {
+    #[inline]
+    unsafe fn write(self, place: *mut u8, stored: Stored) {
         // SAFETY: the caller's contract.
-        unsafe { *place.cast() = self }
+        unsafe {
+            match stored {
+                Stored::Integer(of) => write_small(self, place, of),
+                _ => *place.cast() = self,
+            }
+        }
+    }
+}
+
+/// Apart, so that an `i32` costs nothing for the types that are smaller.
+///
+/// # Safety
+/// As for [`Value::read`]. Larger types have `i128` as their value.
+#[inline(never)]
+unsafe fn read_small(place: *const u8, of: IntegerType) -> i32 {
+    // SAFETY: this function's contract.
+    unsafe {
+        match of {
+            IntegerType::Int8 => i32::from(*place.cast::<i8>()),
+            IntegerType::UInt8 => i32::from(*place),
+            IntegerType::Int16 => i32::from(*place.cast::<i16>()),
+            IntegerType::UInt16 => i32::from(*place.cast::<u16>()),
+            _ => *place.cast(),
+        }
+    }
+}
+
+/// # Safety
+/// As for [`Value::write`], and as for [`read_small`].
+#[inline(never)]
+unsafe fn write_small(value: i32, place: *mut u8, of: IntegerType) {
+    // SAFETY: this function's contract.
+    unsafe {
+        match of {
+            IntegerType::Int8 => *place.cast() = value as i8,
+            IntegerType::UInt8 => *place = value as u8,
+            IntegerType::Int16 => *place.cast() = value as i16,
+            IntegerType::UInt16 => *place.cast() = value as u16,
+            _ => *place.cast() = value,
+        }
+    }
+}
+
+impl sealed::Sealed for i128 {}
+impl Value for i128 {
+    unsafe fn read(place: *const u8, stored: Stored) -> Self {
+        // SAFETY: the caller's contract. No field of a row is an `i128` itself; an `i32` is one by `Place::widened`.
+        unsafe {
+            match stored {
+                Stored::Integer(IntegerType::UInt32) => Self::from(*place.cast::<u32>()),
+                Stored::Integer(IntegerType::Int64) => Self::from(*place.cast::<i64>()),
+                Stored::Integer(IntegerType::UInt64) => Self::from(*place.cast::<u64>()),
+                small => Self::from(i32::read(place, small)),
+            }
+        }
+    }
+
+    unsafe fn write(self, place: *mut u8, stored: Stored) {
+        // SAFETY: the caller's contract, and as in `read`.
+        unsafe {
+            match stored {
+                Stored::Integer(IntegerType::UInt32) => *place.cast() = self as u32,
+                Stored::Integer(IntegerType::Int64) => *place.cast() = self as i64,
+                Stored::Integer(IntegerType::UInt64) => *place.cast() = self as u64,
+                small => (self as i32).write(place, small),
+            }
+        }
     }
 }
 
@@ -98,7 +178,7 @@ impl Value for bool {
         unsafe {
             match stored {
                 Stored::Word => *place.cast::<i32>() != 0,
-                Stored::AsIs | Stored::Single => *place.cast(),
+                _ => *place.cast(),
             }
         }
     }
@@ -108,31 +188,38 @@ impl Value for bool {
         unsafe {
             match stored {
                 Stored::Word => *place.cast() = i32::from(self),
-                Stored::AsIs | Stored::Single => *place.cast() = self,
+                _ => *place.cast() = self,
             }
         }
     }
 }
 
-#[cfg(feature = "std")]
-impl sealed::Sealed for String {}
-#[cfg(feature = "std")]
-impl Value for String {
-    unsafe fn read(place: *const u8, _: Stored) -> Self {
-        // SAFETY: the caller's contract.
-        unsafe { (*place.cast::<Self>()).clone() }
-    }
+macro_rules! owned {
+    ($value:ty) => {
+        #[cfg(feature = "std")]
+        impl sealed::Sealed for $value {}
+        #[cfg(feature = "std")]
+        impl Value for $value {
+            unsafe fn read(place: *const u8, _: Stored) -> Self {
+                // SAFETY: the caller's contract.
+                unsafe { (*place.cast::<Self>()).clone() }
+            }
 
-    unsafe fn write(self, place: *mut u8, _: Stored) {
-        // SAFETY: the caller's contract.
-        unsafe { *place.cast::<Self>() = self }
-    }
+            unsafe fn write(self, place: *mut u8, _: Stored) {
+                // SAFETY: the caller's contract.
+                unsafe { *place.cast::<Self>() = self }
+            }
+        }
+    };
 }
+
+owned! { String }
+owned! { Vec<u8> }
 
 /// The type of a field that a row can show: a value, or an array of values.
 #[diagnostic::on_unimplemented(
     message = "a row cannot show a field of type `{Self}`",
-    label = "expected f64, f32, i32, bool, String or an array of one of them",
+    label = "expected f64, f32, an integer of 8 to 64 bits, bool, String, Vec<u8> or an array of one of them",
     note = "a field without `#[input]`, `#[output]`, `#[parameter]`, `#[calculated]` or `#[local]` is a state and may have any type; a struct of rows is a `#[part]`"
 )]
 pub trait Leaf {
@@ -147,25 +234,35 @@ pub trait Leaf {
 }
 
 macro_rules! leaf {
-    ($($field:ty => $value:ty, $stored:ident;)+) => {$(
+    ($($field:ty => $value:ty, $stored:expr;)+) => {$(
         impl Leaf for $field {
             type Value = $value;
             const LEN: usize = 1;
             const STRIDE: usize = size_of::<Self>();
-            const STORED: Stored = Stored::$stored;
+            const STORED: Stored = $stored;
         }
     )+};
 }
 
 leaf! {
-    f64 => f64, AsIs;
-    f32 => f64, Single;
-    i32 => i32, AsIs;
-    bool => bool, AsIs;
+    f64 => f64, Stored::AsIs;
+    f32 => f64, Stored::Single;
+    i8 => i32, Stored::Integer(IntegerType::Int8);
+    u8 => i32, Stored::Integer(IntegerType::UInt8);
+    i16 => i32, Stored::Integer(IntegerType::Int16);
+    u16 => i32, Stored::Integer(IntegerType::UInt16);
+    i32 => i32, Stored::AsIs;
+    u32 => i128, Stored::Integer(IntegerType::UInt32);
+    i64 => i128, Stored::Integer(IntegerType::Int64);
+    u64 => i128, Stored::Integer(IntegerType::UInt64);
+    bool => bool, Stored::AsIs;
 }
 
 #[cfg(feature = "std")]
-leaf! { String => String, AsIs; }
+leaf! {
+    String => String, Stored::AsIs;
+    Vec<u8> => Vec<u8>, Stored::AsIs;
+}
 
 impl<L: Leaf, const N: usize> Leaf for [L; N] {
     type Value = L::Value;
@@ -203,6 +300,7 @@ pub const fn of_word<M, L: Leaf<Value = i32>>(
 ) -> Place<M, bool> {
     let _ = field;
     assert!(L::LEN > 0, "a row has a value");
+    assert!(matches!(L::STORED, Stored::AsIs), "boolean is for an i32");
     Place {
         offset: narrow(offset),
         stride: narrow(L::STRIDE),
@@ -304,7 +402,37 @@ impl<M, V: Value> Place<M, V> {
     }
 }
 
+impl<M> Place<M, i32> {
+    /// In which type the values are stored.
+    pub const fn integer_type(&self) -> IntegerType {
+        IntegerType::of(self.stored)
+    }
+
+    /// The same values in the type that holds all integers.
+    pub const fn widened(self) -> Place<M, i128> {
+        Place {
+            offset: self.offset,
+            stride: self.stride,
+            len: self.len,
+            stored: self.stored,
+            holder: PhantomData,
+        }
+    }
+}
+
+impl<M> Place<M, i128> {
+    /// In which type the values are stored.
+    pub const fn integer_type(&self) -> IntegerType {
+        IntegerType::of(self.stored)
+    }
+}
+
 impl<M> Place<M, f64> {
+    /// Whether the values are stored in single precision.
+    pub const fn is_single(&self) -> bool {
+        matches!(self.stored, Stored::Single)
+    }
+
     /// Whether all values are finite.
     #[inline]
     pub fn are_finite(&self, model: &M) -> bool {
@@ -363,7 +491,7 @@ impl<M> Place<M, bool> {
                 holder: PhantomData,
             }
             .get(model, i),
-            Stored::AsIs | Stored::Single => i32::from(self.get(model, i)),
+            _ => i32::from(self.get(model, i)),
         }
     }
 }

@@ -59,8 +59,17 @@ impl Range {
         }
     }
 
+    /// Whether single precision has its bounds: each is infinite, or finite there too.
+    pub const fn is_single(&self) -> bool {
+        single(self.low) && single(self.high)
+    }
+
     /// Whether `value` lies in it; NaN and infinity lie in none.
     pub const fn contains(&self, value: f64) -> bool {
         value.is_finite() && self.low <= value && value <= self.high
     }
+}
+
+const fn single(bound: f64) -> bool {
+    bound.is_infinite() || (bound as f32).is_finite()
 }

@@ -1,5 +1,6 @@
 //! The row: one variable of a model, or one vector of them.
 
+use crate::integer::Bound;
 use crate::place::Place;
 use crate::range::Range;
 use crate::{Unit, Value};
@@ -111,14 +112,23 @@ pub enum Access<M> {
         /// Where the values are.
         at: Place<M, f64>,
     },
-    /// fmi2Integer
+    /// fmi2Integer. A smaller type has the bounds of its own at least.
     Integer {
-        /// Smallest accepted value (`i32::MIN`: none).
+        /// Smallest accepted value; the type's: none.
         min: i32,
-        /// Largest accepted value (`i32::MAX`: none).
+        /// Largest accepted value; the type's: none.
         max: i32,
         /// Where the values are.
         at: Place<M, i32>,
+    },
+    /// An integer of a type that fmi2Integer does not hold: FMI 3.0 alone has it.
+    Wide {
+        /// Smallest accepted value; the type's: none.
+        min: Bound,
+        /// Largest accepted value; the type's: none.
+        max: Bound,
+        /// Where the values are.
+        at: Place<M, i128>,
     },
     /// fmi2Boolean
     Boolean {
@@ -130,6 +140,16 @@ pub enum Access<M> {
     String {
         /// Where the values are.
         at: Place<M, String>,
+    },
+    /// Bytes, which FMI 3.0 alone has.
+    #[cfg(feature = "std")]
+    Binary {
+        /// What they are: a media type (RFC 2045), for instance `application/json`.
+        mime_type: &'static str,
+        /// Most bytes that are accepted.
+        max_size: Option<usize>,
+        /// Where the values are.
+        at: Place<M, Vec<u8>>,
     },
     /// fmi2Integer restricted to the items of an enumeration
     Enumeration {
@@ -156,12 +176,34 @@ impl<M> Access<M> {
         match self {
             Self::Real { at, .. } => at.len(),
             Self::Integer { at, .. } | Self::Enumeration { at, .. } => at.len(),
+            Self::Wide { at, .. } => at.len(),
             Self::Boolean { at } => at.len(),
             #[cfg(feature = "std")]
             Self::String { at } => at.len(),
+            #[cfg(feature = "std")]
+            Self::Binary { at, .. } => at.len(),
+        }
+    }
+
+    /// Whether the type of the field holds the bounds.
+    const fn holds_bounds(&self) -> bool {
+        match self {
+            Self::Integer { min, max, at } => {
+                let of = at.integer_type();
+                of.low() <= *min as i128 && *max as i128 <= of.high()
+            }
+            Self::Wide { min, max, at } => {
+                let of = at.integer_type();
+                of.low() <= min.get() && max.get() <= of.high()
+            }
+            Self::Real { range, at, .. } if at.is_single() => range.is_single(),
+            _ => true,
         }
     }
 }
+
+/// What the bytes of a Binary are whose row does not say it: the default of FMI 3.0.
+pub const ANY_BYTES: &str = "application/octet-stream";
 
 /// One row: a scalar (`len == 1`), or a vector whose name contains `[i]` and which expands to `[1]` … `[len]`.
 pub struct Variable<M: 'static> {
@@ -206,7 +248,14 @@ impl<M> Variable<M> {
     pub const NOTHING: Self = Self::new("", Access::Boolean { at: Place::NOTHING });
 
     /// A row with its place; the causality is said by the next call.
+    ///
+    /// # Panics
+    /// When the type of the field does not hold the bounds (at compile time: rows are constants).
     pub const fn new(name: &'static str, access: Access<M>) -> Self {
+        assert!(
+            access.holds_bounds(),
+            "a bound is beyond the type of the field"
+        );
         let len = access.len();
         Self {
             number: IN_ORDER,
@@ -357,6 +406,15 @@ impl<M> Of<M> for i32 {
     }
 }
 
+impl<M> Of<M> for i128 {
+    fn of(access: &Access<M>) -> Option<&Place<M, Self>> {
+        match access {
+            Access::Wide { at, .. } => Some(at),
+            _ => None,
+        }
+    }
+}
+
 impl<M> Of<M> for bool {
     fn of(access: &Access<M>) -> Option<&Place<M, Self>> {
         match access {
@@ -371,6 +429,16 @@ impl<M> Of<M> for String {
     fn of(access: &Access<M>) -> Option<&Place<M, Self>> {
         match access {
             Access::String { at } => Some(at),
+            _ => None,
+        }
+    }
+}
+
+#[cfg(feature = "std")]
+impl<M> Of<M> for Vec<u8> {
+    fn of(access: &Access<M>) -> Option<&Place<M, Self>> {
+        match access {
+            Access::Binary { at, .. } => Some(at),
             _ => None,
         }
     }

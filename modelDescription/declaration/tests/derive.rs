@@ -56,6 +56,30 @@ struct Whole {
     /// Samples.
     #[parameter(11, integers = 0..)]
     samples: i32,
+    /// Of every size.
+    #[input(12, integers = -5..)]
+    small: [i8; 2],
+    /// Of every size.
+    #[input(13, integers = ..=200)]
+    byte: u8,
+    /// Of every size.
+    #[input(14)]
+    short: i16,
+    /// Of every size.
+    #[input(15)]
+    port: u16,
+    /// Of every size.
+    #[input(16)]
+    count: u32,
+    /// Of every size.
+    #[input(17, integers = -9_000_000_000..=9_000_000_000)]
+    long: i64,
+    /// Of every size.
+    #[input(18)]
+    mask: [u64; 2],
+    /// Bytes.
+    #[parameter(19, max_size = 3, mime_type = "image/png", start = vec![1, 2])]
+    picture: Vec<u8>,
     #[start(7)]
     hidden: u64,
 }
@@ -83,6 +107,14 @@ fn rows_stand_in_the_order_of_their_numbers_with_the_names_of_their_parts() {
         "energy.H",
         "on",
         "samples",
+        "small[i]",
+        "byte",
+        "short",
+        "port",
+        "count",
+        "long",
+        "mask[i]",
+        "picture",
     ];
     assert_eq!(
         names,
@@ -159,7 +191,9 @@ fn every_value_is_read_and_written_where_it_lies() {
                 Access::Integer { at, .. } | Access::Enumeration { at, .. } => {
                     at.set(&mut model, i, n as i32)
                 }
+                Access::Wide { at, .. } => at.set(&mut model, i, n as i128),
                 Access::Boolean { at } => at.set(&mut model, i, true),
+                Access::Binary { at, .. } => at.set(&mut model, i, vec![n as u8]),
                 Access::String { .. } => {}
             }
         }
@@ -175,6 +209,13 @@ fn every_value_is_read_and_written_where_it_lies() {
         (13.0, 14.0, 15, 16.0)
     );
     assert_eq!((model.on, model.samples, model.hidden), (1, 18, 7));
+    assert_eq!(
+        (model.small, model.byte, model.short, model.port),
+        ([19, 20], 21, 22, 23)
+    );
+    assert_eq!((model.count, model.long, model.mask), (24, 25, [26, 27]));
+    assert_eq!(model.picture, [28]);
+    assert_eq!(whole()[18].value(&model, 1), Some(27_i128));
     assert_eq!(whole()[4].value(&model, 1), Some(8.0));
     assert_eq!(whole()[4].value::<i32>(&model, 1), None);
 }
@@ -248,6 +289,91 @@ fn the_first_value_out_of_its_range_is_named() {
         ..Whole::default()
     };
     assert!(check::first(&broken, whole(), Causality::Parameter, true).is_err());
+}
+
+#[test]
+fn an_integer_without_bounds_has_those_of_its_type() {
+    let integer = |i: usize| match whole()[i].access {
+        Access::Integer { min, max, at } => (at.integer_type(), min.into(), max.into()),
+        Access::Wide { min, max, at } => (at.integer_type(), min.get(), max.get()),
+        _ => panic!("no integer"),
+    };
+    use fmu_declaration::IntegerType as I;
+    let nine = 9_000_000_000;
+    let expected = [
+        (I::Int32, 0, i32::MAX.into()),
+        (I::Int8, -5, 127),
+        (I::UInt8, 0, 200),
+        (I::Int16, -32_768, 32_767),
+        (I::UInt16, 0, 65_535),
+        (I::UInt32, 0, 4_294_967_295),
+        (I::Int64, -nine, nine),
+        (I::UInt64, 0, u64::MAX.into()),
+    ];
+    for (i, expected) in (11..).zip(expected) {
+        assert_eq!(integer(i), expected, "{}", whole()[i].name);
+    }
+}
+
+/// The smallest and the largest value of each type, and those between them, are read as they were written.
+#[test]
+fn no_bit_of_an_integer_is_lost() {
+    let mut model = Whole::default();
+    for row in whole() {
+        let of = match &row.access {
+            Access::Integer { at, .. } => at.integer_type(),
+            Access::Wide { at, .. } => at.integer_type(),
+            _ => continue,
+        };
+        let set = |model: &mut Whole, value: i128| match &row.access {
+            Access::Integer { at, .. } => {
+                at.set(model, 0, value as i32);
+                assert_eq!(at.widened().get(model, 0), at.get(model, 0).into());
+                at.get(model, 0).into()
+            }
+            Access::Wide { at, .. } => {
+                at.set(model, 0, value);
+                at.get(model, 0)
+            }
+            _ => panic!("no integer"),
+        };
+        let (low, high) = (of.low(), of.high());
+        for value in [low, low + 1, low / 3, 0, 1, high / 3, high - 1, high] {
+            assert_eq!(set(&mut model, value), value, "{}", row.name);
+        }
+    }
+}
+
+#[test]
+fn a_value_beyond_its_bounds_is_named_whatever_its_type() {
+    let refused = |causality, change: fn(&mut Whole)| {
+        let mut model = Whole::default();
+        change(&mut model);
+        let objection = check::first(&model, whole(), causality, false).expect_err("refused");
+        (
+            objection.name,
+            objection.element,
+            objection.value,
+            (objection.low, objection.high),
+        )
+    };
+    let (input, parameter) = (Causality::Input, Causality::Parameter);
+    assert_eq!(
+        refused(input, |m| m.small[1] = -6),
+        ("small", Some(2), -6.0, (-5.0, 127.0))
+    );
+    assert_eq!(
+        refused(input, |m| m.byte = 201),
+        ("byte", None, 201.0, (0.0, 200.0))
+    );
+    assert_eq!(
+        refused(input, |m| m.long = -9_000_000_001),
+        ("long", None, -9_000_000_001.0, (-9e9, 9e9))
+    );
+    assert_eq!(
+        refused(parameter, |m| m.picture = vec![0; 4]),
+        ("picture", None, 4.0, (0.0, 3.0))
+    );
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! The smallest model: y = ∫ u dt, with u held over each step. `lag.rs` shows every type of variable.
+//! The smallest model: y = ∫ u dt, with u held over each step. `feedthrough` shows every type of variable.
 
 use fmu_export::{Log, Model, Refusal, Step, interface};
 

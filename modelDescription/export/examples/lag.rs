@@ -1,4 +1,4 @@
-//! A first-order lag, with one variable of each type and a switch that panics.
+//! A first-order lag, with variables of all types of FMI 2.0 and a switch that panics.
 //!
 //! It is also the subject of the tests of the C interface (`tests/abi`), as a shared library.
 

@@ -7,7 +7,7 @@ use crate::kind::{Kind, TIME};
 use crate::legality::Phase;
 use crate::model::{Model, Refusal};
 use crate::provenance::text;
-use fmu_declaration::{Access, Causality, Enumeration, Place, Provenance, Variable};
+use fmu_declaration::{Access, Causality, Enumeration, Place, Provenance, Range, Variable};
 use std::convert::Infallible;
 
 /// A value of the interface, and what a row demands of it.
@@ -24,27 +24,19 @@ pub trait Value: fmu_declaration::Value {
     fn of_text(_: &'static str) -> Option<Self> {
         None
     }
-
-    /// A time (s) as a value, if this is the type for times.
-    fn of_time(_: f64) -> Option<Self> {
-        None
-    }
 }
 
 impl Value for f64 {
     #[inline]
     fn objection<M>(&self, row: &Variable<M>) -> Option<String> {
-        let Access::Real { unit, range, .. } = &row.access else {
+        let Access::Real { unit, range, at } = &row.access else {
             return None;
         };
-        if range.contains(*self) || (row.may_be_nan && !self.is_finite()) {
+        // The common case alone, so that it costs little.
+        if range.contains(*self) && !at.is_single() {
             return None;
         }
-        Some(out_of_range(*self, unit.name, range))
-    }
-
-    fn of_time(time: f64) -> Option<Self> {
-        Some(time)
+        real_objection(*self, unit.name, range, at.is_single(), row.may_be_nan)
     }
 
     #[inline]
@@ -53,9 +45,37 @@ impl Value for f64 {
     }
 }
 
+#[inline(never)]
+fn real_objection(
+    value: f64,
+    unit: &str,
+    range: &Range,
+    single: bool,
+    may_be_nan: bool,
+) -> Option<String> {
+    // As it will be stored: what is too large for single precision is infinite there.
+    let stored = f64::from(value as f32);
+    let accepted = single && range.single().contains(stored);
+    if accepted || (may_be_nan && !value.is_finite()) {
+        return None;
+    }
+    if single && value.is_finite() && stored.is_infinite() {
+        return Some(beyond_single(value, unit));
+    }
+    Some(out_of_range(value, unit, range))
+}
+
 #[cold]
-fn out_of_range(value: f64, unit: &str, range: &fmu_declaration::Range) -> String {
-    let fmu_declaration::Range { low, high, .. } = range;
+fn beyond_single(value: f64, unit: &str) -> String {
+    let largest = f32::MAX;
+    format!(
+        "= {value:?} {unit}, expected at most {largest:?} in magnitude, as single precision holds"
+    )
+}
+
+#[cold]
+fn out_of_range(value: f64, unit: &str, range: &Range) -> String {
+    let Range { low, high, .. } = range;
     if value.is_finite() {
         format!("= {value} {unit}, expected a value from {low} to {high}")
     } else {
@@ -82,8 +102,25 @@ impl Value for i32 {
     }
 }
 
+impl Value for i128 {
+    fn objection<M>(&self, row: &Variable<M>) -> Option<String> {
+        match &row.access {
+            Access::Wide { min, max, .. } if *self < min.get() || *self > max.get() => {
+                let (min, max) = (min.get(), max.get());
+                Some(format!("= {self}, expected a value from {min} to {max}"))
+            }
+            Access::Enumeration { of, .. }
+                if !of.items.iter().any(|item| i128::from(item.value) == *self) =>
+            {
+                Some(no_item(*self, of))
+            }
+            _ => None,
+        }
+    }
+}
+
 #[cold]
-fn no_item(value: i64, of: &Enumeration) -> String {
+fn no_item(value: i128, of: &Enumeration) -> String {
     let items: Vec<_> = of
         .items
         .iter()
@@ -117,6 +154,23 @@ impl Value for String {
     }
 }
 
+impl Value for Vec<u8> {
+    fn objection<M>(&self, row: &Variable<M>) -> Option<String> {
+        match row.access {
+            Access::Binary {
+                max_size: Some(most),
+                ..
+            } if self.len() > most => Some(too_long(self.len(), most)),
+            _ => None,
+        }
+    }
+}
+
+#[cold]
+fn too_long(size: usize, most: usize) -> String {
+    format!("has {size} bytes, expected at most {most}")
+}
+
 /// Checks every parameter against its row, as Set does: for models that are also used without the C interface, whose
 /// fields anyone can write.
 ///
@@ -146,6 +200,8 @@ pub(crate) fn check<M: Model>(model: &M, causality: Causality) -> Result<(), Ref
         let objection = match &row.access {
             Access::Real { at, .. } => first(model, at, row),
             Access::Integer { at, .. } | Access::Enumeration { at, .. } => first(model, at, row),
+            Access::Wide { at, .. } => first(model, at, row),
+            Access::Binary { at, .. } => first(model, at, row),
             Access::Boolean { at } => (0..row.len)
                 .find_map(|i| Some((i, boolean(at.word(model, i)).err()?.objection(row)))),
             Access::String { .. } => None,
@@ -181,16 +237,13 @@ impl NoValue for Word {
     }
 }
 
-/// An integer that is no item of any enumeration: too large.
-pub(crate) struct TooLarge(pub i64);
+/// A null pointer to so many bytes.
+pub(crate) struct NoBytes(pub usize);
 
-impl NoValue for TooLarge {
+impl NoValue for NoBytes {
     #[cold]
-    fn objection<M>(self, row: &Variable<M>) -> String {
-        match &row.access {
-            Access::Enumeration { of, .. } => no_item(self.0, of),
-            _ => format!("= {}, expected an item", self.0),
-        }
+    fn objection<M>(self, _: &Variable<M>) -> String {
+        format!("is null, expected {} bytes", self.0)
     }
 }
 
@@ -262,7 +315,7 @@ impl<M: Model> Instance<M> {
     fn without_row<K: Kind>(&self, reference: ValueReference) -> Result<K::Value, Failure> {
         let (name, value) = match Provenance::find(reference) {
             Some(of) => (of.name(), K::Value::of_text(text(of))),
-            None if reference == TIME && !K::SCALAR => ("time", K::Value::of_time(self.time())),
+            None if reference == TIME && !K::SCALAR => ("time", K::of_time(self.time())),
             None => return unknown::<_, M>(reference),
         };
         value.map_or_else(|| another_type::<_, K>(name, reference), Ok)
@@ -276,7 +329,7 @@ impl<M: Model> Instance<M> {
         let mut count = 0;
         for &reference in references {
             count += match find::<K, M>(reference) {
-                Some((row, _)) if K::at(&row.access).is_some() => K::len(row),
+                Some((row, _)) if K::is(&row.access) => K::len(row),
                 Some((row, element)) => {
                     return another_type::<_, K>(&shown::<K, M>(row, element), reference);
                 }
@@ -346,7 +399,7 @@ impl<M: Model> Instance<M> {
                     None => unknown::<_, M>(reference),
                 };
             };
-            if K::at(&variable.access).is_none() {
+            if !K::is(&variable.access) {
                 return another_type::<_, K>(&shown::<K, M>(variable, element), reference);
             }
             let first = if K::SCALAR { i } else { next };
@@ -373,11 +426,8 @@ impl<M: Model> Instance<M> {
             };
             let first = if K::SCALAR { i } else { next };
             next = first + K::len(row);
-            let Some(at) = K::at(&row.access) else {
-                continue;
-            };
             K::visit(row, element, first, |element, i| {
-                if let Ok(value) = value(i) {
+                if let (Ok(value), Some(at)) = (value(i), K::at(&row.access)) {
                     at.set(&mut self.now.model, element, value);
                 }
                 None::<()>

@@ -28,6 +28,8 @@ pub struct Instance<M: Model> {
     pub(crate) slots: Slots<M>,
     /// Strings handed to the importer, alive until its next call.
     pub(crate) strings: Vec<CString>,
+    /// Binaries handed to the importer, alive until its next call.
+    pub(crate) binaries: Vec<Vec<u8>>,
 }
 
 impl<M: Model> Instance<M> {
@@ -56,6 +58,7 @@ impl<M: Model> Instance<M> {
             outputs: Outputs::new(),
             slots: Slots::new(),
             strings: Vec::new(),
+            binaries: Vec::new(),
         };
         instance.now.model.located(instance.resources.as_deref());
         instance

@@ -21,8 +21,19 @@ pub trait Kind {
     /// Whether each value reference stands for one value.
     const SCALAR: bool;
 
+    /// Whether the row is of this type.
+    #[inline(always)]
+    fn is<M>(access: &Access<M>) -> bool {
+        Self::at(access).is_some()
+    }
+
     /// Where the row's values are, if the row is of this type.
-    fn at<M>(access: &Access<M>) -> Option<&Place<M, Self::Value>>;
+    fn at<M>(access: &Access<M>) -> Option<Place<M, Self::Value>>;
+
+    /// A time (s) as a value, if this is the type for times.
+    fn of_time(_: f64) -> Option<Self::Value> {
+        None
+    }
 
     /// The same of a slot; none where this type has no slots.
     fn quick<M>(_: &At<M>) -> Option<&Place<M, Self::Value>> {
@@ -52,8 +63,20 @@ pub trait Kind {
     }
 }
 
+/// A type whose values are numbers in C, too.
+pub trait Number: Kind {
+    /// C's type.
+    type C: Copy;
+
+    /// A value of a row of this type, as C has it.
+    fn give(value: Self::Value) -> Self::C;
+
+    /// What C has given.
+    fn take(given: Self::C) -> Self::Value;
+}
+
 macro_rules! kind {
-    ($(#[$doc:meta])* $name:ident, $standard:literal, scalar $scalar:literal, $value:ty, $row:pat => $at:expr $(, in $slot:ident)?) => {
+    ($(#[$doc:meta])* $name:ident, $standard:expr, scalar $scalar:literal, $value:ty, $row:pat $(if $guard:expr)? => $at:expr $(, in $slot:ident)? $(; $of_time:item)?) => {
         $(#[$doc])*
         #[derive(Clone, Copy, Debug)]
         pub struct $name;
@@ -63,10 +86,10 @@ macro_rules! kind {
             const NAME: &'static str = $standard;
             const SCALAR: bool = $scalar;
 
-            #[inline]
-            fn at<M>(access: &Access<M>) -> Option<&Place<M, $value>> {
+            #[inline(always)]
+            fn at<M>(access: &Access<M>) -> Option<Place<M, $value>> {
                 match access {
-                    $row => $at,
+                    $row $(if $guard)? => Some($at),
                     _ => None,
                 }
             }
@@ -80,48 +103,102 @@ macro_rules! kind {
                     }
                 }
             )?
+
+            $($of_time)?
         }
     };
 }
 
-/// The types of FMI 2.0. An enumeration's items are Integers.
-#[rustfmt::skip]
-pub mod fmi2 {
-    use super::{Access, At, Kind, Place};
+macro_rules! number {
+    ($($name:ident: $value:ty, $c:ty;)*) => {$(
+        impl Number for $name {
+            type C = $c;
 
-    kind! { /** fmi2Real */ Real, "Real", scalar true, f64, Access::Real { at, .. } => Some(at), in Real }
-    kind! { /** fmi2Integer */ Integer, "Integer", scalar true, i32, Access::Integer { at, .. } | Access::Enumeration { at, .. } => Some(at), in Whole }
-    kind! { /** fmi2Boolean */ Boolean, "Boolean", scalar true, bool, Access::Boolean { at } => Some(at), in Flag }
-    kind! { /** fmi2String */ Text, "String", scalar true, String, Access::String { at } => Some(at) }
+            #[inline]
+            fn give(value: $value) -> $c {
+                value as $c // exact: the row's field is of this type
+            }
+
+            #[inline]
+            fn take(given: $c) -> $value {
+                given.into()
+            }
+        }
+    )*};
 }
 
-/// The types of FMI 3.0. An enumeration's items are Int64; several types have no row.
+/// The types of FMI 2.0. An enumeration's items are Integers, and single precision is Real.
+#[rustfmt::skip]
+pub mod fmi2 {
+    use super::{Access, At, Kind, Number, Place};
+
+    kind! { /** fmi2Real */ Real, "Real", scalar true, f64, Access::Real { at, .. } => *at, in Real }
+    kind! { /** fmi2Integer */ Integer, "Integer", scalar true, i32, Access::Integer { at, .. } | Access::Enumeration { at, .. } => *at, in Whole }
+    kind! { /** fmi2Boolean */ Boolean, "Boolean", scalar true, bool, Access::Boolean { at } => *at, in Flag }
+    kind! { /** fmi2String */ Text, "String", scalar true, String, Access::String { at } => *at }
+
+    number! {
+        Real: f64, f64;
+        Integer: i32, i32;
+    }
+}
+
+/// The types of FMI 3.0. An enumeration's items are Int64.
 #[rustfmt::skip]
 pub mod fmi3 {
-    use super::{Access, Kind, Place};
+    use super::{Access, Kind, Number, Place};
+    use fmu_declaration::IntegerType;
 
-    kind! { /** fmi3Float64 */ Float64, "Float64", scalar false, f64, Access::Real { at, .. } => Some(at) }
-    kind! { /** fmi3Int32 */ Int32, "Int32", scalar false, i32, Access::Integer { at, .. } => Some(at) }
-    kind! { /** fmi3Int64, for the items of enumerations */ Enumeration, "Enumeration", scalar false, i32, Access::Enumeration { at, .. } => Some(at) }
-    kind! { /** fmi3Boolean */ Boolean, "Boolean", scalar false, bool, Access::Boolean { at } => Some(at) }
-    kind! { /** fmi3String */ Text, "String", scalar false, String, Access::String { at } => Some(at) }
+    kind! {
+        /** fmi3Float64 */ Float64, "Float64", scalar false, f64, Access::Real { at, .. } if !at.is_single() => *at;
+        fn of_time(time: f64) -> Option<f64> { Some(time) }
+    }
+    kind! { /** fmi3Float32 */ Float32, "Float32", scalar false, f64, Access::Real { at, .. } if at.is_single() => *at }
+    kind! { /** fmi3Boolean */ Boolean, "Boolean", scalar false, bool, Access::Boolean { at } => *at }
+    kind! { /** fmi3String */ Text, "String", scalar false, String, Access::String { at } => *at }
+    kind! { /** fmi3Binary */ Binary, "Binary", scalar false, Vec<u8>, Access::Binary { at, .. } => *at }
 
-    macro_rules! absent {
-        ($($name:ident)*) => {$(
-            #[doc = concat!("fmi3", stringify!($name), ": no row is of this type.")]
-            #[derive(Clone, Copy, Debug)]
-            pub struct $name;
-
-            impl Kind for $name {
-                type Value = bool; // never read nor written
-                const NAME: &'static str = stringify!($name);
-                const SCALAR: bool = false;
-
-                fn at<M>(_: &Access<M>) -> Option<&Place<M, bool>> {
-                    None
-                }
+    macro_rules! integer {
+        ($($name:ident in $access:ident: $value:ty, $c:ty;)*) => {$(
+            kind! {
+                #[doc = concat!("fmi3", stringify!($name))]
+                $name, stringify!($name), scalar false, $value,
+                Access::$access { at, .. } if at.integer_type() == IntegerType::$name => *at
             }
+            number! { $name: $value, $c; }
         )*};
     }
-    absent! { Float32 Int8 UInt8 Int16 UInt16 UInt32 UInt64 Binary }
+    integer! {
+        Int8 in Integer: i32, i8;
+        UInt8 in Integer: i32, u8;
+        Int16 in Integer: i32, i16;
+        UInt16 in Integer: i32, u16;
+        Int32 in Integer: i32, i32;
+        UInt32 in Wide: i128, u32;
+        UInt64 in Wide: i128, u64;
+    }
+    number! {
+        Float64: f64, f64;
+        Float32: f64, f32;
+        Int64: i128, i64;
+    }
+
+    /// fmi3Int64, and the items of enumerations
+    #[derive(Clone, Copy, Debug)]
+    pub struct Int64;
+
+    impl Kind for Int64 {
+        type Value = i128;
+        const NAME: &'static str = "Int64";
+        const SCALAR: bool = false;
+
+        #[inline]
+        fn at<M>(access: &Access<M>) -> Option<Place<M, i128>> {
+            match access {
+                Access::Enumeration { at, .. } => Some(at.widened()),
+                Access::Wide { at, .. } if at.integer_type() == IntegerType::Int64 => Some(*at),
+                _ => None,
+            }
+        }
+    }
 }

@@ -1,12 +1,15 @@
-//! No NaN and no infinity may leave a model, but for NaN where a row says so (a sensor's failure).
+//! No NaN and no infinity may leave a model, but for NaN where a row says so (a sensor's failure); and no more bytes than a row
+//! says.
 
+use crate::access::Value as _;
 use crate::model::Model;
 use fmu_declaration::{Access, Place, Variable};
 
-/// The Reals that a model computes, in runs that can be looked through without a look at their rows.
+/// The Reals that a model computes, in runs that can be looked through without a look at their rows, and its Binaries.
 pub(crate) struct Outputs<M: Model> {
     finite: Vec<Place<M, f64>>,
     may_be_nan: Vec<Place<M, f64>>,
+    binaries: Vec<&'static Variable<M>>,
 }
 
 impl<M: Model> Outputs<M> {
@@ -15,6 +18,11 @@ impl<M: Model> Outputs<M> {
         Self {
             finite: runs(false),
             may_be_nan: runs(true),
+            binaries: M::DESCRIPTION
+                .variables
+                .iter()
+                .filter(|row| row.is_calculated() && matches!(row.access, Access::Binary { .. }))
+                .collect(),
         }
     }
 
@@ -25,10 +33,16 @@ impl<M: Model> Outputs<M> {
     pub(crate) fn check(&self, model: &M) -> Result<(), String> {
         let finite = self.finite.iter().all(|run| run.are_finite(model));
         let mut readings = self.may_be_nan.iter().flat_map(|run| run.values(model));
-        if finite && !readings.any(f64::is_infinite) {
-            return Ok(());
+        if !finite || readings.any(f64::is_infinite) {
+            return Err(refused(model));
         }
-        Err(refused(model))
+        let objection = |row: &&Variable<M>| {
+            (0..row.len).find_map(|i| {
+                let objection = row.value::<Vec<u8>>(model, i)?.objection(row)?;
+                Some(format!("{} {objection}", row.element_name(i)))
+            })
+        };
+        self.binaries.iter().find_map(objection).map_or(Ok(()), Err)
     }
 }
 

@@ -9,7 +9,7 @@ use crate::kind::Kind;
 use crate::legality::Phase;
 use crate::model::Model;
 use fmu_declaration::description::SCALARS_PER_ROW;
-use fmu_declaration::{Access, Causality, Place};
+use fmu_declaration::{Access, Causality, IntegerType, Place};
 
 /// Rows with a number beyond this have no slot.
 const MOST: u32 = 4096;
@@ -64,11 +64,14 @@ impl<M: Model> Slots<M> {
                 continue;
             }
             let (at, low, high) = match row.access {
+                // What a smaller type does not hold is refused by the row, with its name.
+                Access::Real { at, .. } if at.is_single() => (At::Real(at), 1.0, 0.0),
+                Access::Integer { at, .. } if at.integer_type() != IntegerType::Int32 => (At::Whole(at), 1.0, 0.0),
                 Access::Real { at, range, .. } => (At::Real(at), range.low, range.high),
                 Access::Integer { at, min, max } => (At::Whole(at), min.into(), max.into()),
                 Access::Enumeration { at, .. } => (At::Whole(at), 1.0, 0.0),
                 Access::Boolean { at } => (At::Flag(at), 0.0, 1.0),
-                Access::String { .. } => continue,
+                Access::String { .. } | Access::Wide { .. } | Access::Binary { .. } => continue,
             };
             let is_input = row.causality == Causality::Input;
             let place = number as usize;

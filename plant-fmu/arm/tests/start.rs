@@ -201,7 +201,9 @@ fn changed(row: &Variable<ExoskeletonArm>, i: usize, arm: &ExoskeletonArm) -> Ve
             .map(|item| with(&|arm| at.set(arm, i, item.value)))
             .collect(),
         Access::Boolean { at } => vec![with(&|arm| at.set(arm, i, !at.get(arm, i)))],
-        Access::String { .. } => panic!("no row is a String"),
+        Access::Wide { .. } | Access::String { .. } | Access::Binary { .. } => {
+            panic!("no row is one")
+        }
     }
 }
 

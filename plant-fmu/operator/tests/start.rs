@@ -130,7 +130,9 @@ fn change(row: &Variable<HumanOperator>, i: usize, human: &mut HumanOperator) ->
             at.set(human, i, 3 - at.get(human, i))
         }
         Access::Boolean { at } => at.set(human, i, !at.get(human, i)),
-        Access::String { .. } => panic!("no row is a String"),
+        Access::Wide { .. } | Access::String { .. } | Access::Binary { .. } => {
+            panic!("no row is one")
+        }
     }
     true
 }

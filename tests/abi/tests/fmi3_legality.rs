@@ -48,7 +48,8 @@ const CHANGE: [&str; 7] = [
 
 #[test]
 fn every_function_in_every_state_does_what_the_standard_says_and_the_instance_goes_on() {
-    for fmu in Fmu::all() {
+    let every_type = std::iter::once(Fmu::every_type());
+    for fmu in Fmu::all().into_iter().chain(every_type) {
         for (function, _) in rows() {
             if function == "fmi3FreeInstance" {
                 continue;
@@ -238,7 +239,8 @@ fn a_resource_path_is_a_path_and_no_uri() {
 
 #[test]
 fn a_variable_is_set_as_its_causality_and_variability_allow_in_every_state() {
-    for fmu in Fmu::all() {
+    let every_type = std::iter::once(Fmu::every_type());
+    for fmu in Fmu::all().into_iter().chain(every_type) {
         for state in State::ALL {
             let Some(instance) = enter(&fmu, state) else {
                 continue;

@@ -1,8 +1,8 @@
 """The FMU in a trial: instances that are started, fed and read the same way each time, and traces that are compared."""
 
 from collections.abc import Sequence
-from ctypes import c_void_p
-from math import inf, nextafter
+from ctypes import c_float, c_void_p
+from math import copysign, inf, nextafter
 from struct import pack
 from typing import Any
 
@@ -12,6 +12,8 @@ from exo.probe.library import GOOD, Library, Variable, status
 STEPS = 4
 #: What an input is moved by, as a share of its magnitude.
 SHARE = 0.01
+#: Of single precision: the smallest normal number, and the last place of 1.
+SMALLEST_SINGLE, EPSILON_SINGLE = 2.0**-126, 2.0**-23
 
 #: Values of all outputs after each step.
 Trace = list[list[Any]]
@@ -125,8 +127,17 @@ def said(values: list[Any] | None) -> str:
 def next_to(variable: Variable) -> list[float]:
     """Start values, each moved to the next number: another value that no law minds."""
     return [
-        nextafter(one, -inf if variable.high is not None and one >= variable.high else inf) for one in variable.start
+        _next(variable.kind, one, -inf if variable.high is not None and one >= variable.high else inf)
+        for one in variable.start
     ]
+
+
+def _next(kind: str, value: float, towards: float) -> float:
+    """The next number of the variable's own precision."""
+    if kind != "Float32":
+        return nextafter(value, towards)
+    # Between one and two places of single precision, which it rounds to a neighbour.
+    return c_float(value + copysign(max(abs(value), SMALLEST_SINGLE) * EPSILON_SINGLE, towards)).value
 
 
 def _moved(variable: Variable, start: float, number: int) -> float:

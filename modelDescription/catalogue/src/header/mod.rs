@@ -98,7 +98,10 @@ fn meaning(access: &Access<impl Sized>) -> Option<String> {
             };
             Some(of.items.iter().map(item).collect::<Vec<_>>().join(", "))
         }
-        Access::Integer { .. } | Access::String { .. } => None,
+        Access::Integer { .. }
+        | Access::Wide { .. }
+        | Access::String { .. }
+        | Access::Binary { .. } => None,
     }
 }
 

@@ -47,7 +47,13 @@ impl Row {
 
     /// Whether a key stands there.
     pub fn has(&self, name: &str) -> bool {
-        self.keys.iter().any(|(key, _)| key == name)
+        self.span(name).is_some()
+    }
+
+    /// The key itself, where it stands.
+    pub fn span(&self, name: &str) -> Option<&Ident> {
+        let mut keys = self.keys.iter().map(|(key, _)| key);
+        keys.find(|key| *key == name)
     }
 }
 
@@ -58,12 +64,14 @@ struct Keys {
     keys: Vec<(Ident, Option<Expr>)>,
 }
 
-const KNOWN: [&str; 14] = [
+const KNOWN: [&str; 16] = [
     "unit",
     "range",
     "integers",
     "items",
     "boolean",
+    "max_size",
+    "mime_type",
     "name",
     "start",
     "tunable",

@@ -30,20 +30,40 @@
 //! |---|---|---|
 //! | `unit = NEWTON` | one of `fmu_declaration::unit` | 1 |
 //! | `range = POSITIVE`, `range = 0.0..=10.0` | one of `fmu_declaration::range`, or bounds | any number |
-//! | `integers = 0..=1` | bounds of an integer | any |
+//! | `integers = 0..=1` | bounds of an integer | those of its type |
 //! | `items = LAW` | an integer that is one of an `Enumeration`'s items | |
 //! | `boolean` | an `i32` that is 0 or 1 | |
+//! | `max_size = 64` | most bytes of a `Vec<u8>` | any number |
+//! | `mime_type = "image/png"` | what the bytes of a `Vec<u8>` are | `application/octet-stream` |
 //! | `name = "energy.H"` | the name; a vector's has `[i]` | the field's |
 //! | `start = 0.5` | the start value, for `Start` | `Default::default()` |
 //! | `tunable` | a parameter that may be changed in a run | fixed |
-//! | `discrete`, `continuous` | of an input or output | Reals continuous, others discrete; `#[rows(discrete)]` on the struct: all discrete |
+//! | `discrete`, `continuous` | of an input or output | `f64` and `f32` continuous, others discrete; `#[rows(discrete)]` on the struct: all discrete |
 //! | `from = ["q[i]", "A1"]` | what an output's initial value follows from | nothing |
 //! | `nan` | a sensor that can fail so | |
 //! | `typed` | the XML declares the enumeration as a type | as an Integer |
 
+//! The type of the field, or of the elements of an array `[T; N]`, is the type of the variable:
+//!
+//! | field | FMI 2.0 | FMI 3.0 |
+//! |---|---|---|
+//! | `f64` | Real | Float64 |
+//! | `f32` | Real | Float32 |
+//! | `i8`, `u8`, `i16`, `u16` | Integer with the bounds of the type | Int8, UInt8, Int16, UInt16 |
+//! | `i32` | Integer | Int32 |
+//! | `i32` with `items` | Integer, with `typed` Enumeration | Enumeration |
+//! | `u32`, `i64`, `u64` | – | UInt32, Int64, UInt64 |
+//! | `bool`, `i32` with `boolean` | Boolean | Boolean |
+//! | `String` | String | String |
+//! | `Vec<u8>` | – | Binary |
+//!
+//! A model with a variable that FMI 2.0 has no type for has archives of FMI 3.0 alone. An alias of a type stands for `f64` or
+//! `f32`; write the other types by their names.
+
 use proc_macro::TokenStream;
 use quote::quote;
 
+mod access;
 mod attribute;
 mod interface;
 mod rows;

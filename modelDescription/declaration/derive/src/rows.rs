@@ -1,9 +1,10 @@
 //! `impl Rows`.
 
-use crate::attribute::{Part, Role, Row, constant, is_discrete};
+use crate::access::access;
+use crate::attribute::{Part, Role, Row, is_discrete};
 use proc_macro2::TokenStream;
 use quote::quote;
-use syn::{Data, DeriveInput, Error, Expr, Field, Fields, Ident, RangeLimits, Result, Type};
+use syn::{Data, DeriveInput, Error, Expr, Field, Fields, Ident, Result, Type};
 
 /// The fields of a struct with named fields.
 pub fn fields(item: &DeriveInput) -> Result<impl Iterator<Item = (&Ident, &Field)>> {
@@ -124,71 +125,7 @@ fn row(
         Type::Array(array) => (array.elem.as_ref(), true),
         other => (other, false),
     };
-    let kind = match element {
-        Type::Path(path) => path.path.segments.last().map(|s| s.ident.to_string()),
-        _ => None,
-    };
-    // With the field's type, so that the compiler points at it where it is none of the interface.
-    let place =
-        quote!(::<Self, #of>(::core::mem::offset_of!(Self, #field), |whole: &Self| &whole.#field));
-    let plain = quote!(#root::place::of_field #place);
-    let word = quote!(#root::place::of_word #place);
-    let (access, is_real) = match kind.as_deref() {
-        Some("i32") if attribute.has("boolean") => (quote!(Boolean { at: #word }), false),
-        Some("i32") if attribute.has("items") => {
-            let items = attribute.key("items");
-            let declared = if attribute.has("typed") {
-                quote!(Enumeration)
-            } else {
-                quote!(Integer)
-            };
-            let access = quote!(Enumeration {
-                of: &#items, declared: #root::Declared::#declared, at: #plain
-            });
-            (access, false)
-        }
-        Some("i32") => {
-            let (low, high) = match attribute.key("integers") {
-                Some(range) => bounds(range, &quote!(i32::MIN), &quote!(i32::MAX))?,
-                None => (quote!(i32::MIN), quote!(i32::MAX)),
-            };
-            (quote!(Integer { min: #low, max: #high, at: #plain }), false)
-        }
-        Some("bool") => (quote!(Boolean { at: #plain }), false),
-        Some("String") => (quote!(String { at: #plain }), false),
-        Some(_) => {
-            let unit = attribute
-                .key("unit")
-                .map_or(quote!(#root::unit::NONE), |unit| {
-                    constant(unit, "unit", root)
-                });
-            let range = match attribute.key("range") {
-                None => quote!(#root::range::FINITE),
-                Some(range @ Expr::Range(_)) => {
-                    let (low, high) =
-                        bounds(range, &quote!(f64::NEG_INFINITY), &quote!(f64::INFINITY))?;
-                    let words = match (low.to_string(), high.to_string()) {
-                        (low, high) if high.contains("INFINITY") => {
-                            format!("a finite value, at least {low}")
-                        }
-                        (low, high) => format!("{} to {}", joined(&low), joined(&high)),
-                    };
-                    quote!(#root::Range::new(#low, #high, #words))
-                }
-                Some(range) => constant(range, "range", root),
-            };
-            (
-                quote!(Real { unit: #unit, range: #range, at: #plain }),
-                true,
-            )
-        }
-        None => {
-            return Err(Error::new_spanned(
-                of,
-                "expected a number, a Boolean or a String",
-            ));
-        }
-    };
+    let (access, is_real) = access(field, of, element, attribute, root)?;
 
     let name = attribute.key("name").map_or_else(
         || {
@@ -246,35 +183,4 @@ fn row(
             #from
             #nan
     })
-}
-
-/// Tokens of a number without the spaces between sign and digits.
-fn joined(number: &str) -> String {
-    number.replace("- ", "-")
-}
-
-/// Low and high of `a..=b`, `a..`, `..=b`.
-fn bounds(
-    range: &Expr,
-    least: &TokenStream,
-    most: &TokenStream,
-) -> Result<(TokenStream, TokenStream)> {
-    let Expr::Range(bounds) = range else {
-        return Err(Error::new_spanned(range, "expected low..=high"));
-    };
-    if matches!(bounds.limits, RangeLimits::HalfOpen(_)) && bounds.end.is_some() {
-        return Err(Error::new_spanned(
-            range,
-            "the upper bound is included: low..=high",
-        ));
-    }
-    let low = bounds
-        .start
-        .as_ref()
-        .map_or(least.clone(), |low| quote!(#low));
-    let high = bounds
-        .end
-        .as_ref()
-        .map_or(most.clone(), |high| quote!(#high));
-    Ok((low, high))
 }

@@ -46,53 +46,53 @@ macro_rules! export_fmi3 {
                 fn fmi3GetInt32(c: Component, vr: *const ValueReference, n: usize, values: *mut i32, n_values: usize) -> Status
                     { fmi3::get::<Model, kind::Int32>(c, Function::fmi3GetInt32, vr, n, values, n_values) }
                 fn fmi3GetInt64(c: Component, vr: *const ValueReference, n: usize, values: *mut i64, n_values: usize) -> Status
-                    { fmi3::get_enumeration::<Model>(c, vr, n, values, n_values) }
+                    { fmi3::get::<Model, kind::Int64>(c, Function::fmi3GetInt64, vr, n, values, n_values) }
                 fn fmi3GetBoolean(c: Component, vr: *const ValueReference, n: usize, values: *mut Boolean, n_values: usize) -> Status
                     { fmi3::get_boolean::<Model>(c, vr, n, values, n_values) }
                 fn fmi3GetString(c: Component, vr: *const ValueReference, n: usize, values: *mut FmiString, n_values: usize) -> Status
                     { fmi3::get_string::<Model>(c, vr, n, values, n_values) }
-                fn fmi3GetFloat32(c: Component, vr: *const ValueReference, n: usize, _values: *mut f32, n_values: usize) -> Status
-                    { fmi3::absent::<Model, kind::Float32>(c, Function::fmi3GetFloat32, vr, n, n_values) }
-                fn fmi3GetInt8(c: Component, vr: *const ValueReference, n: usize, _values: *mut i8, n_values: usize) -> Status
-                    { fmi3::absent::<Model, kind::Int8>(c, Function::fmi3GetInt8, vr, n, n_values) }
-                fn fmi3GetUInt8(c: Component, vr: *const ValueReference, n: usize, _values: *mut u8, n_values: usize) -> Status
-                    { fmi3::absent::<Model, kind::UInt8>(c, Function::fmi3GetUInt8, vr, n, n_values) }
-                fn fmi3GetInt16(c: Component, vr: *const ValueReference, n: usize, _values: *mut i16, n_values: usize) -> Status
-                    { fmi3::absent::<Model, kind::Int16>(c, Function::fmi3GetInt16, vr, n, n_values) }
-                fn fmi3GetUInt16(c: Component, vr: *const ValueReference, n: usize, _values: *mut u16, n_values: usize) -> Status
-                    { fmi3::absent::<Model, kind::UInt16>(c, Function::fmi3GetUInt16, vr, n, n_values) }
-                fn fmi3GetUInt32(c: Component, vr: *const ValueReference, n: usize, _values: *mut u32, n_values: usize) -> Status
-                    { fmi3::absent::<Model, kind::UInt32>(c, Function::fmi3GetUInt32, vr, n, n_values) }
-                fn fmi3GetUInt64(c: Component, vr: *const ValueReference, n: usize, _values: *mut u64, n_values: usize) -> Status
-                    { fmi3::absent::<Model, kind::UInt64>(c, Function::fmi3GetUInt64, vr, n, n_values) }
-                fn fmi3GetBinary(c: Component, vr: *const ValueReference, n: usize, _sizes: *mut usize, _values: *mut Binary, n_values: usize) -> Status
-                    { fmi3::absent::<Model, kind::Binary>(c, Function::fmi3GetBinary, vr, n, n_values) }
+                fn fmi3GetFloat32(c: Component, vr: *const ValueReference, n: usize, values: *mut f32, n_values: usize) -> Status
+                    { fmi3::get::<Model, kind::Float32>(c, Function::fmi3GetFloat32, vr, n, values, n_values) }
+                fn fmi3GetInt8(c: Component, vr: *const ValueReference, n: usize, values: *mut i8, n_values: usize) -> Status
+                    { fmi3::get::<Model, kind::Int8>(c, Function::fmi3GetInt8, vr, n, values, n_values) }
+                fn fmi3GetUInt8(c: Component, vr: *const ValueReference, n: usize, values: *mut u8, n_values: usize) -> Status
+                    { fmi3::get::<Model, kind::UInt8>(c, Function::fmi3GetUInt8, vr, n, values, n_values) }
+                fn fmi3GetInt16(c: Component, vr: *const ValueReference, n: usize, values: *mut i16, n_values: usize) -> Status
+                    { fmi3::get::<Model, kind::Int16>(c, Function::fmi3GetInt16, vr, n, values, n_values) }
+                fn fmi3GetUInt16(c: Component, vr: *const ValueReference, n: usize, values: *mut u16, n_values: usize) -> Status
+                    { fmi3::get::<Model, kind::UInt16>(c, Function::fmi3GetUInt16, vr, n, values, n_values) }
+                fn fmi3GetUInt32(c: Component, vr: *const ValueReference, n: usize, values: *mut u32, n_values: usize) -> Status
+                    { fmi3::get::<Model, kind::UInt32>(c, Function::fmi3GetUInt32, vr, n, values, n_values) }
+                fn fmi3GetUInt64(c: Component, vr: *const ValueReference, n: usize, values: *mut u64, n_values: usize) -> Status
+                    { fmi3::get::<Model, kind::UInt64>(c, Function::fmi3GetUInt64, vr, n, values, n_values) }
+                fn fmi3GetBinary(c: Component, vr: *const ValueReference, n: usize, sizes: *mut usize, values: *mut Binary, n_values: usize) -> Status
+                    { fmi3::get_binary::<Model>(c, vr, n, sizes, values, n_values) }
                 fn fmi3SetFloat64(c: Component, vr: *const ValueReference, n: usize, values: *const Float64, n_values: usize) -> Status
                     { fmi3::set::<Model, kind::Float64>(c, Function::fmi3SetFloat64, vr, n, values, n_values) }
                 fn fmi3SetInt32(c: Component, vr: *const ValueReference, n: usize, values: *const i32, n_values: usize) -> Status
                     { fmi3::set::<Model, kind::Int32>(c, Function::fmi3SetInt32, vr, n, values, n_values) }
                 fn fmi3SetInt64(c: Component, vr: *const ValueReference, n: usize, values: *const i64, n_values: usize) -> Status
-                    { fmi3::set_enumeration::<Model>(c, vr, n, values, n_values) }
+                    { fmi3::set::<Model, kind::Int64>(c, Function::fmi3SetInt64, vr, n, values, n_values) }
                 fn fmi3SetBoolean(c: Component, vr: *const ValueReference, n: usize, values: *const Boolean, n_values: usize) -> Status
                     { fmi3::set_boolean::<Model>(c, vr, n, values, n_values) }
                 fn fmi3SetString(c: Component, vr: *const ValueReference, n: usize, values: *const FmiString, n_values: usize) -> Status
                     { fmi3::set_string::<Model>(c, vr, n, values, n_values) }
-                fn fmi3SetFloat32(c: Component, vr: *const ValueReference, n: usize, _values: *const f32, n_values: usize) -> Status
-                    { fmi3::absent::<Model, kind::Float32>(c, Function::fmi3SetFloat32, vr, n, n_values) }
-                fn fmi3SetInt8(c: Component, vr: *const ValueReference, n: usize, _values: *const i8, n_values: usize) -> Status
-                    { fmi3::absent::<Model, kind::Int8>(c, Function::fmi3SetInt8, vr, n, n_values) }
-                fn fmi3SetUInt8(c: Component, vr: *const ValueReference, n: usize, _values: *const u8, n_values: usize) -> Status
-                    { fmi3::absent::<Model, kind::UInt8>(c, Function::fmi3SetUInt8, vr, n, n_values) }
-                fn fmi3SetInt16(c: Component, vr: *const ValueReference, n: usize, _values: *const i16, n_values: usize) -> Status
-                    { fmi3::absent::<Model, kind::Int16>(c, Function::fmi3SetInt16, vr, n, n_values) }
-                fn fmi3SetUInt16(c: Component, vr: *const ValueReference, n: usize, _values: *const u16, n_values: usize) -> Status
-                    { fmi3::absent::<Model, kind::UInt16>(c, Function::fmi3SetUInt16, vr, n, n_values) }
-                fn fmi3SetUInt32(c: Component, vr: *const ValueReference, n: usize, _values: *const u32, n_values: usize) -> Status
-                    { fmi3::absent::<Model, kind::UInt32>(c, Function::fmi3SetUInt32, vr, n, n_values) }
-                fn fmi3SetUInt64(c: Component, vr: *const ValueReference, n: usize, _values: *const u64, n_values: usize) -> Status
-                    { fmi3::absent::<Model, kind::UInt64>(c, Function::fmi3SetUInt64, vr, n, n_values) }
-                fn fmi3SetBinary(c: Component, vr: *const ValueReference, n: usize, _sizes: *const usize, _values: *const Binary, n_values: usize) -> Status
-                    { fmi3::absent::<Model, kind::Binary>(c, Function::fmi3SetBinary, vr, n, n_values) }
+                fn fmi3SetFloat32(c: Component, vr: *const ValueReference, n: usize, values: *const f32, n_values: usize) -> Status
+                    { fmi3::set::<Model, kind::Float32>(c, Function::fmi3SetFloat32, vr, n, values, n_values) }
+                fn fmi3SetInt8(c: Component, vr: *const ValueReference, n: usize, values: *const i8, n_values: usize) -> Status
+                    { fmi3::set::<Model, kind::Int8>(c, Function::fmi3SetInt8, vr, n, values, n_values) }
+                fn fmi3SetUInt8(c: Component, vr: *const ValueReference, n: usize, values: *const u8, n_values: usize) -> Status
+                    { fmi3::set::<Model, kind::UInt8>(c, Function::fmi3SetUInt8, vr, n, values, n_values) }
+                fn fmi3SetInt16(c: Component, vr: *const ValueReference, n: usize, values: *const i16, n_values: usize) -> Status
+                    { fmi3::set::<Model, kind::Int16>(c, Function::fmi3SetInt16, vr, n, values, n_values) }
+                fn fmi3SetUInt16(c: Component, vr: *const ValueReference, n: usize, values: *const u16, n_values: usize) -> Status
+                    { fmi3::set::<Model, kind::UInt16>(c, Function::fmi3SetUInt16, vr, n, values, n_values) }
+                fn fmi3SetUInt32(c: Component, vr: *const ValueReference, n: usize, values: *const u32, n_values: usize) -> Status
+                    { fmi3::set::<Model, kind::UInt32>(c, Function::fmi3SetUInt32, vr, n, values, n_values) }
+                fn fmi3SetUInt64(c: Component, vr: *const ValueReference, n: usize, values: *const u64, n_values: usize) -> Status
+                    { fmi3::set::<Model, kind::UInt64>(c, Function::fmi3SetUInt64, vr, n, values, n_values) }
+                fn fmi3SetBinary(c: Component, vr: *const ValueReference, n: usize, sizes: *const usize, values: *const Binary, n_values: usize) -> Status
+                    { fmi3::set_binary::<Model>(c, vr, n, sizes, values, n_values) }
                 fn fmi3GetFMUState(c: Component, state: *mut FmuState) -> Status
                     { functions::get_fmu_state::<Model, _>(c, Function::fmi3GetFMUState, state) }
                 fn fmi3SetFMUState(c: Component, state: FmuState) -> Status

@@ -29,6 +29,18 @@ pub fn call(function: &str, fmu: &Fmu, instance: &Instance, clocks: usize) -> St
     let clock = &raw const clock;
     let mut state = instance.state();
     let serialized = instance.serialize(state);
+    macro_rules! got {
+        ($function:ident, $kind:expr, $C:ty) => {{
+            let ((vr, n), mut values) = (get($kind), [<$C>::default()]);
+            (l.$function)(c, &raw const vr, n, values.as_mut_ptr(), n)
+        }};
+    }
+    macro_rules! given {
+        ($function:ident, $kind:expr, $C:ty) => {{
+            let ((vr, n), values) = (set($kind), [1 as $C]);
+            (l.$function)(c, &raw const vr, n, values.as_ptr(), n)
+        }};
+    }
     // SAFETY: the instance is live; every pointer is to a local that outlives the call and has the length that is passed, or
     // is null for an array of length 0 and for what a refused function does not write.
     let status = unsafe {
@@ -86,22 +98,31 @@ pub fn call(function: &str, fmu: &Fmu, instance: &Instance, clocks: usize) -> St
                 let (vr, n) = set(Type::Text);
                 (l.fmi3SetString)(c, &raw const vr, n, text.as_ptr(), text.len() * n)
             }
-            "fmi3GetFloat32" => (l.fmi3GetFloat32)(c, null(), 0, null_mut(), 0),
-            "fmi3SetFloat32" => (l.fmi3SetFloat32)(c, null(), 0, null(), 0),
-            "fmi3GetInt8" => (l.fmi3GetInt8)(c, null(), 0, null_mut(), 0),
-            "fmi3SetInt8" => (l.fmi3SetInt8)(c, null(), 0, null(), 0),
-            "fmi3GetUInt8" => (l.fmi3GetUInt8)(c, null(), 0, null_mut(), 0),
-            "fmi3SetUInt8" => (l.fmi3SetUInt8)(c, null(), 0, null(), 0),
-            "fmi3GetInt16" => (l.fmi3GetInt16)(c, null(), 0, null_mut(), 0),
-            "fmi3SetInt16" => (l.fmi3SetInt16)(c, null(), 0, null(), 0),
-            "fmi3GetUInt16" => (l.fmi3GetUInt16)(c, null(), 0, null_mut(), 0),
-            "fmi3SetUInt16" => (l.fmi3SetUInt16)(c, null(), 0, null(), 0),
-            "fmi3GetUInt32" => (l.fmi3GetUInt32)(c, null(), 0, null_mut(), 0),
-            "fmi3SetUInt32" => (l.fmi3SetUInt32)(c, null(), 0, null(), 0),
-            "fmi3GetUInt64" => (l.fmi3GetUInt64)(c, null(), 0, null_mut(), 0),
-            "fmi3SetUInt64" => (l.fmi3SetUInt64)(c, null(), 0, null(), 0),
-            "fmi3GetBinary" => (l.fmi3GetBinary)(c, null(), 0, null_mut(), null_mut(), 0),
-            "fmi3SetBinary" => (l.fmi3SetBinary)(c, null(), 0, null(), null(), 0),
+            "fmi3GetFloat32" => got!(fmi3GetFloat32, Type::Float32, f32),
+            "fmi3SetFloat32" => given!(fmi3SetFloat32, Type::Float32, f32),
+            "fmi3GetInt8" => got!(fmi3GetInt8, Type::Int8, i8),
+            "fmi3SetInt8" => given!(fmi3SetInt8, Type::Int8, i8),
+            "fmi3GetUInt8" => got!(fmi3GetUInt8, Type::UInt8, u8),
+            "fmi3SetUInt8" => given!(fmi3SetUInt8, Type::UInt8, u8),
+            "fmi3GetInt16" => got!(fmi3GetInt16, Type::Int16, i16),
+            "fmi3SetInt16" => given!(fmi3SetInt16, Type::Int16, i16),
+            "fmi3GetUInt16" => got!(fmi3GetUInt16, Type::UInt16, u16),
+            "fmi3SetUInt16" => given!(fmi3SetUInt16, Type::UInt16, u16),
+            "fmi3GetUInt32" => got!(fmi3GetUInt32, Type::UInt32, u32),
+            "fmi3SetUInt32" => given!(fmi3SetUInt32, Type::UInt32, u32),
+            "fmi3GetUInt64" => got!(fmi3GetUInt64, Type::UInt64, u64),
+            "fmi3SetUInt64" => given!(fmi3SetUInt64, Type::UInt64, u64),
+            "fmi3GetBinary" => {
+                let (vr, n) = get(Type::Binary);
+                let (mut sizes, mut pointers) = ([0], [null()]);
+                let (sizes, pointers) = (sizes.as_mut_ptr(), pointers.as_mut_ptr());
+                (l.fmi3GetBinary)(c, &raw const vr, n, sizes, pointers, n)
+            }
+            "fmi3SetBinary" => {
+                let (vr, n) = set(Type::Binary);
+                let (sizes, pointers) = ([3], [b"bar".as_ptr()]);
+                (l.fmi3SetBinary)(c, &raw const vr, n, sizes.as_ptr(), pointers.as_ptr(), n)
+            }
             "fmi3GetClock" => (l.fmi3GetClock)(c, clock, 1, truth.as_mut_ptr()),
             "fmi3SetClock" => (l.fmi3SetClock)(c, clock, 1, truth.as_ptr()),
             "fmi3GetNumberOfVariableDependencies" => {

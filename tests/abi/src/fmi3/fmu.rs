@@ -3,35 +3,98 @@
 use super::instance::{Instance, Interface, Setup};
 use super::library::Library;
 use super::types::*;
+use crate::fmu::directory;
 use crate::{Kind, Variable};
 use std::sync::Arc;
 
 /// Type of a variable in FMI 3.0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Type {
+    /// `<Float32>`
+    Float32,
     /// `<Float64>`
     Float64,
+    /// `<Int8>`
+    Int8,
+    /// `<UInt8>`
+    UInt8,
+    /// `<Int16>`
+    Int16,
+    /// `<UInt16>`
+    UInt16,
     /// `<Int32>`
     Int32,
+    /// `<UInt32>`
+    UInt32,
+    /// `<Int64>`
+    Int64,
+    /// `<UInt64>`
+    UInt64,
     /// `<Enumeration>`, read and written as Int64
     Enumeration,
     /// `<Boolean>`
     Boolean,
     /// `<String>`
     Text,
+    /// `<Binary>`
+    Binary,
+}
+
+impl Type {
+    /// All of them.
+    pub const ALL: [Self; 14] = [
+        Self::Float32,
+        Self::Float64,
+        Self::Int8,
+        Self::UInt8,
+        Self::Int16,
+        Self::UInt16,
+        Self::Int32,
+        Self::UInt32,
+        Self::Int64,
+        Self::UInt64,
+        Self::Enumeration,
+        Self::Boolean,
+        Self::Text,
+        Self::Binary,
+    ];
+
+    /// Those that FMI 2.0 shows as a Real.
+    pub const REALS: [Self; 2] = [Self::Float64, Self::Float32];
+
+    /// Those that it shows as an Integer.
+    pub const INTEGERS: [Self; 6] = [
+        Self::Int32,
+        Self::Enumeration,
+        Self::Int8,
+        Self::UInt8,
+        Self::Int16,
+        Self::UInt16,
+    ];
+
+    /// Whether both have the same functions: items are read and written as Int64.
+    pub fn is_called_as(self, other: Self) -> bool {
+        let called = |one| match one {
+            Self::Enumeration => Self::Int64,
+            one => one,
+        };
+        called(self) == called(other)
+    }
 }
 
 /// One value.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Value {
-    /// Float64
+    /// Float32 or Float64
     Number(f64),
-    /// Int32 or Int64
-    Integer(i64),
+    /// An integer of any size
+    Integer(i128),
     /// Boolean, as a byte
     Truth(u8),
     /// String
     Text(String),
+    /// Binary
+    Bytes(Vec<u8>),
 }
 
 /// A variable of FMI 3.0: a scalar, or an array whose elements FMI 2.0 has as scalars.
@@ -80,7 +143,7 @@ const PER_ROW: Reference = 256;
 
 impl Fmu {
     /// With the rows of the FMU's description for FMI 2.0. Whether an Integer is one of items, which FMI 2.0 has as text
-    /// only, the library says: `tests/fmi3_values.rs` holds that against the declarations.
+    /// only, and how large it is, the library says: `tests/fmi3_values.rs` holds that against the declarations.
     pub fn new(fmi2: crate::Fmu) -> Self {
         let library = Arc::new(Library::load(&fmi2.path));
         let mut rows: Vec<Row> = Vec::new();
@@ -119,17 +182,28 @@ impl Fmu {
             library,
         };
         let asked = fmu.instantiate();
-        let items: Vec<_> = fmu
-            .rows
-            .iter()
-            .map(|row| row.kind == Type::Int32 && asked.read(row).is_err())
-            .collect();
-        for (row, items) in fmu.rows.iter_mut().zip(items) {
-            if items {
-                row.kind = Type::Enumeration;
-            }
+        for row in &mut fmu.rows {
+            let candidates: &[Type] = match row.kind {
+                Type::Float64 => &Type::REALS,
+                Type::Int32 => &Type::INTEGERS,
+                _ => continue,
+            };
+            let is = |kind: &&Type| {
+                let row = Row {
+                    kind: **kind,
+                    ..row.clone()
+                };
+                asked.read(&row).is_ok()
+            };
+            let found = candidates.iter().find(is);
+            row.kind = *found.unwrap_or_else(|| panic!("{}: of no type", row.name));
         }
         fmu
+    }
+
+    /// The test model with the types of numbers that both versions have.
+    pub fn narrow() -> Self {
+        Self::new(crate::Fmu::open_in(&directory().join("test"), "narrow"))
     }
 
     /// The test model and the project's FMUs.

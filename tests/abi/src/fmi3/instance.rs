@@ -197,9 +197,35 @@ impl Instance {
             }};
         }
         let (status, values) = match row.kind {
+            Type::Float32 => get!(fmi3GetFloat32, 0.0, |value: f32| Value::Number(
+                value.into()
+            )),
             Type::Float64 => get!(fmi3GetFloat64, 0.0, Value::Number),
+            Type::Int8 => get!(fmi3GetInt8, 0, |value: i8| Value::Integer(value.into())),
+            Type::UInt8 => get!(fmi3GetUInt8, 0, |value: u8| Value::Integer(value.into())),
+            Type::Int16 => get!(fmi3GetInt16, 0, |value: i16| Value::Integer(value.into())),
+            Type::UInt16 => get!(fmi3GetUInt16, 0, |value: u16| Value::Integer(value.into())),
             Type::Int32 => get!(fmi3GetInt32, 0, |value: i32| Value::Integer(value.into())),
-            Type::Enumeration => get!(fmi3GetInt64, 0, Value::Integer),
+            Type::UInt32 => get!(fmi3GetUInt32, 0, |value: u32| Value::Integer(value.into())),
+            Type::Int64 | Type::Enumeration => {
+                get!(fmi3GetInt64, 0, |value: i64| Value::Integer(value.into()))
+            }
+            Type::UInt64 => get!(fmi3GetUInt64, 0, |value: u64| Value::Integer(value.into())),
+            Type::Binary => {
+                let (mut sizes, mut values) = (vec![usize::MAX; n], vec![null(); n]);
+                let (to, lengths) = (values.as_mut_ptr(), sizes.as_mut_ptr());
+                let status = call!(self.fmi3GetBinary(vr, 1, lengths, to, n));
+                let mut bytes = Vec::new();
+                if status == Status::OK {
+                    for (value, size) in values.into_iter().zip(sizes) {
+                        assert!(!value.is_null(), "{}: no address", row.name);
+                        // SAFETY: so many bytes of the library's, until its next call.
+                        let part = unsafe { std::slice::from_raw_parts(value, size) };
+                        bytes.push(Value::Bytes(part.to_vec()));
+                    }
+                }
+                (status, bytes)
+            }
             Type::Boolean => get!(fmi3GetBoolean, 7, Value::Truth),
             Type::Text => get!(fmi3GetString, null(), |text| Value::Text(owned(text))),
         };
@@ -224,18 +250,38 @@ impl Instance {
             Value::Truth(value) => (*value).into(),
             other => panic!("{} = {other:?}", row.name),
         };
+        macro_rules! set {
+            ($function:ident, $C:ty) => {{
+                let values: Vec<_> = values.iter().map(|value| integer(value) as $C).collect();
+                call!(self.$function(vr, 1, values.as_ptr(), n))
+            }};
+        }
         match row.kind {
             Type::Float64 => {
                 let values: Vec<_> = values.iter().map(number).collect();
                 call!(self.fmi3SetFloat64(vr, 1, values.as_ptr(), n))
             }
-            Type::Int32 => {
-                let values: Vec<_> = values.iter().map(|value| integer(value) as i32).collect();
-                call!(self.fmi3SetInt32(vr, 1, values.as_ptr(), n))
+            Type::Float32 => {
+                let values: Vec<_> = values.iter().map(|value| number(value) as f32).collect();
+                call!(self.fmi3SetFloat32(vr, 1, values.as_ptr(), n))
             }
-            Type::Enumeration => {
-                let values: Vec<_> = values.iter().map(integer).collect();
-                call!(self.fmi3SetInt64(vr, 1, values.as_ptr(), n))
+            Type::Int8 => set!(fmi3SetInt8, i8),
+            Type::UInt8 => set!(fmi3SetUInt8, u8),
+            Type::Int16 => set!(fmi3SetInt16, i16),
+            Type::UInt16 => set!(fmi3SetUInt16, u16),
+            Type::Int32 => set!(fmi3SetInt32, i32),
+            Type::UInt32 => set!(fmi3SetUInt32, u32),
+            Type::Int64 | Type::Enumeration => set!(fmi3SetInt64, i64),
+            Type::UInt64 => set!(fmi3SetUInt64, u64),
+            Type::Binary => {
+                let bytes = values.iter().map(|value| match value {
+                    Value::Bytes(bytes) => bytes.as_slice(),
+                    other => panic!("{} = {other:?}", row.name),
+                });
+                let bytes: Vec<_> = bytes.collect();
+                let sizes: Vec<_> = bytes.iter().map(|bytes| bytes.len()).collect();
+                let pointers: Vec<_> = bytes.iter().map(|bytes| bytes.as_ptr()).collect();
+                call!(self.fmi3SetBinary(vr, 1, sizes.as_ptr(), pointers.as_ptr(), n))
             }
             Type::Boolean => {
                 let values: Vec<_> = values.iter().map(|value| integer(value) as u8).collect();

@@ -5,44 +5,44 @@ use crate::ffi::fmi2::*;
 use crate::ffi::{array, array_mut, string};
 use crate::functions::known;
 use crate::guard::guard;
-use crate::kind::{Kind, fmi2 as kind};
+use crate::kind::{Number, fmi2 as kind};
 use crate::legality::fmi2::Function as F;
 use crate::model::Model;
 use std::convert::Infallible;
 use std::ffi::CString;
 
 /// fmi2GetReal, fmi2GetInteger: values of kind `K` as they are.
-pub unsafe fn get<M: Model, K: Kind<Value: Copy>>(
+pub unsafe fn get<M: Model, K: Number>(
     c: Component,
     function: F,
     references: *const ValueReference,
     n: usize,
-    values: *mut K::Value,
+    values: *mut K::C,
 ) -> Status {
     // SAFETY: the importer's contract.
     unsafe {
         guard::<M, _>(c, function, |instance| {
             let references = known(array(references, n), "vr")?;
             let values = known(array_mut(values, n), "value")?;
-            instance.get::<K>(references, |i, value| values[i] = value)
+            instance.get::<K>(references, |i, value| values[i] = K::give(value))
         })
     }
 }
 
 /// fmi2SetReal, fmi2SetInteger: values of kind `K` as they are.
-pub unsafe fn set<M: Model, K: Kind<Value: Copy>>(
+pub unsafe fn set<M: Model, K: Number>(
     c: Component,
     function: F,
     references: *const ValueReference,
     n: usize,
-    values: *const K::Value,
+    values: *const K::C,
 ) -> Status {
     // SAFETY: the importer's contract.
     unsafe {
         guard::<M, _>(c, function, |instance| {
             let references = known(array(references, n), "vr")?;
             let values = known(array(values, n), "value")?;
-            instance.set::<K, Infallible>(references, |i| Ok(values[i]))
+            instance.set::<K, Infallible>(references, |i| Ok(K::take(values[i])))
         })
     }
 }

@@ -1,13 +1,13 @@
 //! Variables by value reference: section 2.2.6. A value reference stands for all elements of its row.
 
-use crate::access::{NoText, TooLarge, boolean};
+use crate::access::{NoBytes, NoText, boolean};
 use crate::failure::Failure;
 use crate::ffi::fmi3::*;
 use crate::ffi::{array, array_mut, string};
 use crate::functions::known;
 use crate::guard::guard;
 use crate::instance::{Instance, refused};
-use crate::kind::{Kind, fmi3 as kind};
+use crate::kind::{Kind, Number, fmi3 as kind};
 use crate::legality::fmi3::Function as F;
 use crate::model::Model;
 use std::convert::Infallible;
@@ -34,13 +34,13 @@ unsafe fn references<'a, M: Model, K: Kind>(
     Ok(references)
 }
 
-/// fmi3GetFloat64, fmi3GetInt32: values of kind `K` as they are.
-pub unsafe fn get<M: Model, K: Kind<Value: Copy>>(
+/// fmi3GetFloat32 to fmi3GetUInt64: numbers of kind `K`.
+pub unsafe fn get<M: Model, K: Number>(
     c: Component,
     function: F,
     vr: *const ValueReference,
     n: usize,
-    values: *mut K::Value,
+    values: *mut K::C,
     n_values: usize,
 ) -> Status {
     // SAFETY: the importer's contract.
@@ -48,18 +48,18 @@ pub unsafe fn get<M: Model, K: Kind<Value: Copy>>(
         guard::<M, _>(c, function, |instance| {
             let vr = references::<M, K>(instance, vr, n, n_values)?;
             let values = known(array_mut(values, n_values), "values")?;
-            instance.get::<K>(vr, |i, value| values[i] = value)
+            instance.get::<K>(vr, |i, value| values[i] = K::give(value))
         })
     }
 }
 
-/// fmi3SetFloat64, fmi3SetInt32: values of kind `K` as they are.
-pub unsafe fn set<M: Model, K: Kind<Value: Copy>>(
+/// fmi3SetFloat32 to fmi3SetUInt64: numbers of kind `K`.
+pub unsafe fn set<M: Model, K: Number>(
     c: Component,
     function: F,
     vr: *const ValueReference,
     n: usize,
-    values: *const K::Value,
+    values: *const K::C,
     n_values: usize,
 ) -> Status {
     // SAFETY: the importer's contract.
@@ -67,45 +67,7 @@ pub unsafe fn set<M: Model, K: Kind<Value: Copy>>(
         guard::<M, _>(c, function, |instance| {
             let vr = references::<M, K>(instance, vr, n, n_values)?;
             let values = known(array(values, n_values), "values")?;
-            instance.set::<K, Infallible>(vr, |i| Ok(values[i]))
-        })
-    }
-}
-
-/// fmi3GetInt64: the items of enumerations.
-pub unsafe fn get_enumeration<M: Model>(
-    c: Component,
-    vr: *const ValueReference,
-    n: usize,
-    values: *mut i64,
-    n_values: usize,
-) -> Status {
-    // SAFETY: the importer's contract.
-    unsafe {
-        guard::<M, _>(c, F::fmi3GetInt64, |instance| {
-            let vr = references::<M, kind::Enumeration>(instance, vr, n, n_values)?;
-            let values = known(array_mut(values, n_values), "values")?;
-            instance.get::<kind::Enumeration>(vr, |i, value| values[i] = value.into())
-        })
-    }
-}
-
-/// fmi3SetInt64: the items of enumerations.
-pub unsafe fn set_enumeration<M: Model>(
-    c: Component,
-    vr: *const ValueReference,
-    n: usize,
-    values: *const i64,
-    n_values: usize,
-) -> Status {
-    // SAFETY: the importer's contract.
-    unsafe {
-        guard::<M, _>(c, F::fmi3SetInt64, |instance| {
-            let vr = references::<M, kind::Enumeration>(instance, vr, n, n_values)?;
-            let values = known(array(values, n_values), "values")?;
-            instance.set::<kind::Enumeration, _>(vr, |i| {
-                i32::try_from(values[i]).map_err(|_| TooLarge(values[i]))
-            })
+            instance.set::<K, Infallible>(vr, |i| Ok(K::take(values[i])))
         })
     }
 }
@@ -192,18 +154,60 @@ pub unsafe fn set_string<M: Model>(
     }
 }
 
-/// The functions of a type that no row has: every reference is refused with its variable's name.
-pub unsafe fn absent<M: Model, K: Kind>(
+/// fmi3GetBinary: the bytes live until the next call of this function.
+pub unsafe fn get_binary<M: Model>(
     c: Component,
-    function: F,
     vr: *const ValueReference,
     n: usize,
+    sizes: *mut usize,
+    values: *mut Binary,
     n_values: usize,
 ) -> Status {
     // SAFETY: the importer's contract.
     unsafe {
-        guard::<M, _>(c, function, |instance| {
-            references::<M, K>(instance, vr, n, n_values).map(|_| ())
+        guard::<M, _>(c, F::fmi3GetBinary, |instance| {
+            let vr = references::<M, kind::Binary>(instance, vr, n, n_values)?;
+            let sizes = known(array_mut(sizes, n_values), "valueSizes")?;
+            let values = known(array_mut(values, n_values), "values")?;
+            let mut binaries = Vec::with_capacity(n_values);
+            instance.get::<kind::Binary>(vr, |_, bytes| binaries.push(bytes))?;
+            instance.binaries = binaries;
+            for ((size, value), bytes) in sizes.iter_mut().zip(values).zip(&instance.binaries) {
+                *size = bytes.len();
+                // No bytes have an address, too, so that importers may copy from it.
+                *value = if bytes.is_empty() {
+                    NO_BYTES.as_ptr()
+                } else {
+                    bytes.as_ptr()
+                };
+            }
+            Ok(())
+        })
+    }
+}
+
+/// Where a Binary without bytes lies.
+static NO_BYTES: [Byte; 1] = [0];
+
+/// fmi3SetBinary: the bytes are copied; the address of none may be null.
+pub unsafe fn set_binary<M: Model>(
+    c: Component,
+    vr: *const ValueReference,
+    n: usize,
+    sizes: *const usize,
+    values: *const Binary,
+    n_values: usize,
+) -> Status {
+    // SAFETY: the importer's contract, also for each of its binaries.
+    unsafe {
+        guard::<M, _>(c, F::fmi3SetBinary, |instance| {
+            let vr = references::<M, kind::Binary>(instance, vr, n, n_values)?;
+            let sizes = known(array(sizes, n_values), "valueSizes")?;
+            let values = known(array(values, n_values), "values")?;
+            instance.set::<kind::Binary, _>(vr, |i| {
+                let bytes = array(values[i], sizes[i]).map(<[Byte]>::to_vec);
+                bytes.ok_or(NoBytes(sizes[i]))
+            })
         })
     }
 }
