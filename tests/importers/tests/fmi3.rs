@@ -105,6 +105,7 @@ fn outputs(instance: &mut impl GetSet, arrays: &[Array<'_>]) -> Vec<f64> {
             Kind::Enumeration { .. } => instance.get_int64(&reference, &mut items),
             Kind::Boolean { .. } => instance.get_boolean(&reference, &mut truths),
             Kind::String { .. } => continue,
+            Kind::Binary { .. } => panic!("{}: no FMU here has one", array.name),
         };
         outcome.unwrap_or_else(|error| panic!("{}: {error:?}", array.name));
         found.extend((0..n).map(|i| match array.first().kind {

@@ -137,6 +137,7 @@ impl<M: Model> Driven for Linked<M> {
                 }
                 Access::Boolean { at } => booleans.push(u64::from(at.get(model, i))),
                 Access::String { .. } => {}
+                Access::Wide { .. } | Access::Binary { .. } => panic!("no FMU here has one"),
             }
         }
         [reals, integers, booleans].concat()
