@@ -11,6 +11,7 @@ from mkdocs.structure.pages import Page
 
 sys.path.insert(0, str(Path(__file__).parent))
 
+import moving
 import reference  # beside this file, which MkDocs loads by its path
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -18,6 +19,8 @@ ROOT = Path(__file__).resolve().parents[2]
 OUTSIDE = re.compile(r"\[([^\]]+)\]\(\.\./[^)]*\)")
 
 
+#: Where a page has something that moves.
+MOVING = re.compile(r"<!-- moving: ([\w-]+) -->")
 #: Material for MkDocs would fetch this from the network; the copy beside this file is of version 1.0.4.
 SHIM = "https://unpkg.com/iframe-worker/shim"
 SHIM_HERE = "assets/iframe-worker/shim.js"
@@ -26,6 +29,8 @@ SHIM_HERE = "assets/iframe-worker/shim.js"
 def on_files(files: Files, *, config: MkDocsConfig) -> Files:
     """Adds the pages that `reference` makes, and what is beside this file."""
     for path, text in reference.pages(ROOT).items():
+        files.append(File.generated(config, path, content=text))
+    for path, text in moving.sources().items():
         files.append(File.generated(config, path, content=text))
     here = Path(__file__).parent
     for path, source in (
@@ -39,6 +44,11 @@ def on_files(files: Files, *, config: MkDocsConfig) -> Files:
 def on_page_markdown(markdown: str, **_more: Any) -> str:
     """A link out of the folder becomes its text."""
     return OUTSIDE.sub(r"\1", markdown)
+
+
+def on_page_content(html: str, *, page: Page, **_more: Any) -> str:
+    """What moves takes the place of its mark."""
+    return MOVING.sub(lambda found: moving.player(found[1], "../" * page.url.count("/")), html)
 
 
 def on_post_page(output: str, *, page: Page, **_more: Any) -> str:

@@ -88,3 +88,15 @@ def test_a_dead_link_ends_the_build(tmp_path: Path) -> None:
     done = build(config, tmp_path / "out")
     assert done.returncode != 0
     assert "there.md" in done.stderr
+
+
+def test_what_moves_in_the_page_of_the_law_is_what_the_fmus_do(site: Path) -> None:
+    sys.path.insert(0, str(ROOT / "docs/site"))
+    import moving  # noqa: PLC0415 (a module of the site, not of the tests)
+
+    assert (ROOT / "docs/site/wall-scene.json").read_text(encoding="utf-8") == moving.recorded(), (
+        "python docs/site/moving.py writes it"
+    )
+    page = (site / "law.html").read_text(encoding="utf-8")
+    assert 'id="wall-scene"' in page
+    assert "exoReplay.mount" in page
