@@ -1,4 +1,4 @@
-"""An FMU of another maker, written in Python and packed by PythonFMU, coupled with this project's. Run by test_python_fmu.py."""
+"""An FMU of another maker, packed by PythonFMU, coupled with this project's. Run by test_python_fmu.py."""
 
 import subprocess
 import sys
