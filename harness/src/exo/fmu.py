@@ -32,6 +32,7 @@ LARGEST, LARGEST_INTEGER = float(np.finfo(np.float64).max), int(np.iinfo(np.int3
 #: Letters of another program's message.
 QUOTED = 400
 STATUS = ("OK", "Warning", "Discard", "Error", "Fatal", "Pending")
+FATAL = STATUS.index("Fatal")
 DISCARD = STATUS.index("Discard")
 #: Of fmi2StatusKind.
 LAST_SUCCESSFUL_TIME, TERMINATED = 2, 3
@@ -223,6 +224,7 @@ class Instance:
         #: The last messages as (category, text).
         self.messages: deque[tuple[str, str]] = deque(maxlen=200)
         self._environment = next(ENVIRONMENTS)
+        self._fatal = False
         self._callbacks = callbacks(self._environment)
         description = archive.description
         library = archive.library
@@ -267,8 +269,10 @@ class Instance:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
-        self._slave.freeInstance()
-        del MESSAGES[self._environment]
+        # After fmi2Fatal nothing may be called, and what the library still holds must stay where it is.
+        if not self._fatal:
+            self._slave.freeInstance()
+            del MESSAGES[self._environment]
 
     def last_message(self) -> str:
         """The FMU's last log message, in one line."""
@@ -278,6 +282,7 @@ class Instance:
         """The error for a call that returned another status than OK."""
         if function == "fmi2DoStep" and status == DISCARD and (end := self._ended_at()) is not None:
             return FmuError(f"{self.name}: has ended the simulation at t = {end:.6g} s; expected a shorter duration")
+        self._fatal = self._fatal or status == FATAL
         named = f"fmi2{STATUS[status]}" if 0 <= status < len(STATUS) else f"{status}, which is no status"
         return FmuError(f"{self.name}: {function} returned {named}: {self.last_message()}")
 
