@@ -47,7 +47,8 @@ mod tests {
 
     #[test]
     fn the_readme_has_the_table_of_the_laws() {
-        let readme = std::fs::read_to_string(crate::root().join("docs/controllers.md")).expect("is there");
+        let readme =
+            std::fs::read_to_string(crate::root().join("docs/controllers.md")).expect("is there");
         let begin = "<!-- laws: made from fmu/admittance/src/law.rs -->\n";
         let block = readme
             .split_once(begin)

@@ -66,7 +66,9 @@ impl<M: Model> Slots<M> {
             let (at, low, high) = match row.access {
                 // What a smaller type does not hold is refused by the row, with its name.
                 Access::Real { at, .. } if at.is_single() => (At::Real(at), 1.0, 0.0),
-                Access::Integer { at, .. } if at.integer_type() != IntegerType::Int32 => (At::Whole(at), 1.0, 0.0),
+                Access::Integer { at, .. } if at.integer_type() != IntegerType::Int32 => {
+                    (At::Whole(at), 1.0, 0.0)
+                }
                 Access::Real { at, range, .. } => (At::Real(at), range.low, range.high),
                 Access::Integer { at, min, max } => (At::Whole(at), min.into(), max.into()),
                 Access::Enumeration { at, .. } => (At::Whole(at), 1.0, 0.0),
