@@ -66,7 +66,15 @@ pub fn pack(made: &Path, precision: &Precision, tools: &Binutils, to: &Path) -> 
     std::fs::create_dir_all(&folder).map_err(at(&folder))?;
     let (whole, object) = (folder.join("whole.o"), folder.join(object_name(precision)));
 
-    let functions = functions(&listed(tools, &["-g", "--defined-only"], made)?);
+    // Bitcode, which the compiler's own objects carry: where LLVM's plugin for binutils is of another version, it takes an object
+    // with bitcode for one that it cannot read, and no symbol of it is found any more.
+    let plain = folder.join("plain.a");
+    run(tools
+        .program("objcopy")
+        .args(["--remove-section=.llvmbc", "--remove-section=.llvmcmd"])
+        .arg(made)
+        .arg(&plain))?;
+    let functions = functions(&listed(tools, &["-g", "--defined-only"], &plain)?);
     if functions.is_empty() {
         return Err(Failure::Found(format!(
             "{} defines no function whose name begins with exo_",
@@ -78,7 +86,7 @@ pub fn pack(made: &Path, precision: &Precision, tools: &Binutils, to: &Path) -> 
     for function in &functions {
         link.args(["-u", function]);
     }
-    run(link.arg(made).arg("-o").arg(&whole))?;
+    run(link.arg(&plain).arg("-o").arg(&whole))?;
     asks_for_nothing_else(&listed(tools, &["-u"], &whole)?)?;
 
     let names = |file: &str, line: &dyn Fn(&str) -> String| -> Outcome<PathBuf> {
