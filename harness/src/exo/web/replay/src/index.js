@@ -1,0 +1,4 @@
+// exoReplay: what a page calls.
+
+export { mount } from "./mount.js";
+export { live } from "./live.js";
