@@ -27,8 +27,6 @@ def tables(
     and of switches, by their ids."""
     fixed = {key: settings[knob.id] for knob in bench.knobs if not knob.live for key in knob.keys}
     live = {key: f"profile.{knob.id}" for knob in bench.knobs if knob.live for key in knob.keys}
-    # What a profile gives in step 0 is what the controller begins with, without a ramp to it.
-    begin = {key: settings[knob.id] for knob in bench.knobs if knob.live for key in knob.keys}
     pushed = {key: f"profile.{axis}" for axis, keys in bench.force.items() for key in keys}
     switched = {key: f"profile.{one}" for one, keys in bench.switches.items() for key in keys}
     return {
@@ -40,7 +38,7 @@ def tables(
         "duration": duration,
         "step": bench.step,
         "signals": list(dict.fromkeys([*bench.shown, *(keys[0] for keys in bench.force.values())])),
-        "parameters": {**bench.parameters, **begin, **fixed},
+        "parameters": {**bench.parameters, **fixed},
         "inputs": {**pushed, **live, **switched},
         "profiles": {one: [{"kind": "table", "points": [list(p) for p in points]}] for one, points in profiles.items()},
         "cases": [{"id": name, "label": "played"}],
