@@ -10,6 +10,7 @@ from exo.commands import (
     export,
     identify_tool,
     measure,
+    play,
     references,
     requirements,
     scenarios,
@@ -44,6 +45,7 @@ app.command("list")(scenarios.list_scenarios)
 app.command("schema")(scenarios.print_schema)
 app.command("run")(scenarios.run)
 app.command("reproduce")(scenarios.reproduce)
+app.command("play")(play.play)
 app.command("sweep")(sweep.run_sweep)
 app.command("compare")(compare.compare)
 app.command("requirements")(requirements.list_requirements)

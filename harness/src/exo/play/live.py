@@ -50,8 +50,9 @@ class State:
     let_go: float | None
     #: Share of real time that the last second had; 1 where the machine keeps up.
     speed: float
-    #: `running`, `slower than real time`, `paused`, `ended`, or a sentence about an FMU that failed.
+    #: `running`, `slower than real time`, `paused`, `ended`; or, where it has `failed`, a sentence about what did.
     status: str
+    failed: bool
     settings: Mapping[str, float | str]
     switches: Mapping[str, bool]
     #: N/m
@@ -59,6 +60,8 @@ class State:
     #: Where the hand wants the handle (m, an axis each); None while it does not grip.
     target: tuple[float, ...] | None
     paused: bool
+    #: The hand repeats an earlier run by itself.
+    repeats: bool
 
     def as_json(self) -> dict[str, Any]:
         """Numbers with six digits: a page has no use for more."""
@@ -72,11 +75,13 @@ class State:
             "let_go": self.let_go,
             "speed": round(self.speed, 3),
             "status": self.status,
+            "failed": self.failed,
             "settings": dict(self.settings),
             "switches": dict(self.switches),
             "stiffness": self.stiffness,
             "target": self.target,
             "paused": self.paused,
+            "repeats": self.repeats,
         }
 
 
@@ -129,6 +134,17 @@ class Live:
         """The number of the run, and its plant as `exo.replay.geometry` has it."""
         return self._geometry
 
+    def begun(self, *, within: float = 30.0) -> State:
+        """The first state, when the first run has begun. ExoError, if it cannot begin."""
+        until = perf_counter() + within
+        while (state := self._state) is None or not (state.values or state.failed):
+            if perf_counter() > until:
+                raise ExoError(f"no run has begun within {within:g} s")
+            sleep(0.01)
+        if state.failed:
+            raise ExoError(state.status)
+        return state
+
     def columns(self) -> dict[str, NDArray[np.float64]]:
         """What is shown, a row for each step that has been made. For a run that is paused or has ended."""
         with self._lock:
@@ -172,9 +188,19 @@ class Live:
             raise ExoError(f"pause = {on!r:.40}: expected true or false")
         self._paused = on
 
-    def again(self) -> None:
-        """Begins a new run."""
-        self._again = True
+    def again(self, *, same_hand: bool = False) -> None:
+        """Begins a new run; with `same_hand` the forces of this one push until somebody takes the handle."""
+        with self._lock:
+            script = tuple(tuple(self._points.get(axis, ())) for axis in self.bench.force)
+            self._hand.script = script if same_hand and all(len(one) > 1 for one in script) else ()
+            self._hand.aim(None)
+            self._again = True
+
+    def other(self, name: str, given: object) -> None:
+        """A knob set for a new run, in which the hand pushes as it did in this one."""
+        with self._lock:
+            self._settings[name] = self.bench.knob(name).value(given)
+        self.again(same_hand=True)
 
     def tables(self, name: str = "played") -> dict[str, Any]:
         """The run so far as a scenario's tables. ExoError, if nothing has been played yet."""
@@ -198,10 +224,10 @@ class Live:
                 try:
                     self._run(run, opened, stack)
                 except ExoError as error:
-                    self._tell(run=run, status=" ".join(str(error).split()))
+                    self._tell(run=run, status=" ".join(str(error).split()), failed=True)
                 except Exception as error:  # a page that stands still without a word helps nobody
                     said = " ".join(str(error).split())
-                    self._tell(run=run, status=f"an error of exo itself: {type(error).__name__}: {said}")
+                    self._tell(run=run, status=f"an error of exo itself: {type(error).__name__}: {said}", failed=True)
                 while not self._again and not self._stopping:
                     sleep(IDLE_S)
 
@@ -282,7 +308,8 @@ class Live:
         """Fills the inputs of the steps from `first` to before `end`: straight from the last values to the new ones."""
         bench = self.bench
         with self._lock:
-            force = self._hand.force([here[name] for name in bench.position], [here[name] for name in bench.velocity])
+            position, velocity = ([here[name] for name in names] for names in (bench.position, bench.velocity))
+            force = self._hand.force(position, velocity, time=end * bench.step)
             force = [round(one, FORCE_DIGITS) for one in force]
             wanted = dict(zip(bench.force, force, strict=True))
             wanted |= {knob.id: float(self._settings[knob.id]) for knob in self._live()}
@@ -304,7 +331,7 @@ class Live:
         contact: Contact | None = more.get("contact")
         with self._lock:
             settings, switches = dict(self._settings), dict(self._switches)
-            stiffness, target = self._hand.stiffness, self._hand.target
+            stiffness, target, repeats = self._hand.stiffness, self._hand.target, bool(self._hand.script)
         self._state = State(
             run=run,
             time=more.get("time", old.time if old else 0.0),
@@ -315,11 +342,13 @@ class Live:
             let_go=contact.let_go if contact else old.let_go if old else None,
             speed=more.get("speed", 1.0),
             status=status,
+            failed=more.get("failed", False),
             settings=settings,
             switches=switches,
             stiffness=stiffness,
             target=None if target is None else tuple(target),
             paused=self._paused,
+            repeats=repeats,
         )
 
 

@@ -23,8 +23,10 @@ def tables(
     duration: float,
     name: str = "played",
 ) -> dict[str, Any]:
-    """The scenario's tables. `settings`: a value for each knob; `profiles`: points of the hand's axes (N), of live knobs
-    and of switches, by their ids."""
+    """The scenario's tables.
+
+    `settings`: a value for each knob; `profiles`: points of the hand's axes (N), of live knobs and of switches, by id.
+    """
     fixed = {key: settings[knob.id] for knob in bench.knobs if not knob.live for key in knob.keys}
     live = {key: f"profile.{knob.id}" for knob in bench.knobs if knob.live for key in knob.keys}
     pushed = {key: f"profile.{axis}" for axis, keys in bench.force.items() for key in keys}
@@ -69,7 +71,10 @@ def thinned(points: Points) -> list[tuple[float, float]]:
 
 
 def write(found: dict[str, Any], place: Path, name: str) -> Path:
-    """`<place>/<name>.toml`, or with a number behind where that is taken. ValueError, if a file cannot have this name."""
+    """`<place>/<name>.toml`, or with a number behind where that is taken.
+
+    ValueError, if a file cannot have this name.
+    """
     file_name(name)
     text = _toml(found, name)
     for number in range(1, MANY):
