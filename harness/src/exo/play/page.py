@@ -11,7 +11,7 @@ INLINED = {
     "/*play.css*/": "play/play.css",
     "/*uplot.js*/": "uplot/uPlot.iife.min.js",
     "/*replay.js*/": "replay/replay.js",
-    "/*play.js*/": "play/play.js",
+    **{f"/*{name}.js*/": f"play/{name}.js" for name in ("link", "told", "hand", "knobs", "charts", "play")},
 }
 
 
