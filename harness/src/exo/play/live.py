@@ -279,8 +279,8 @@ class Live:
             coupled.advance(until=end, engine=self.engine)
             done = end
             here = self._values(coupled, done)
-            pressed, pull, moving = _contact(bench, here, force)
-            contact.look(time=done * bench.step, passed=(chunk * bench.step), pressed=pressed, pull=pull, speed=moving)
+            pressed, pull = _contact(bench, here, force)
+            contact.look(time=done * bench.step, passed=chunk * bench.step, pressed=pressed, pull=pull)
             now = perf_counter()
             if now - second[0] >= 1.0:
                 speed = (done - second[1]) * bench.step / (now - second[0])
@@ -352,8 +352,8 @@ class Live:
         )
 
 
-def _contact(bench: Bench, here: Mapping[str, float], force: list[float]) -> tuple[float, float, float]:
-    """The contact's force (N), what the hand pulls away with (N), the handle's speed (m/s)."""
+def _contact(bench: Bench, here: Mapping[str, float], force: list[float]) -> tuple[float, float]:
+    """The contact's force, what the hand pulls away with (N)."""
     if bench.kind == "testbed":
-        return abs(here["plant.tau_e"]), -force[0], here["plant.dq"]
-    return abs(here["plant.f_e[3]"]), force[2], here["plant.dp[3]"]
+        return abs(here["plant.tau_e"]), -force[0]
+    return abs(here["plant.f_e[3]"]), force[2]

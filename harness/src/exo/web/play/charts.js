@@ -36,7 +36,7 @@ function playCharts(bench) {
         width: width(), height: 150, title: `${title} [${unit}]`, cursor: { show: false }, select: { show: false },
         legend: { live: false, show: names.length > 1 },
         scales: { x: { time: false, range: () => [Math.max(0, (times.at(-1) ?? 0) - PLAY_WINDOW), Math.max(PLAY_WINDOW, times.at(-1) ?? 0)] }, y: { range } },
-        axes: [{ ...axis, size: 28, values: (_chart, values) => values.map((value) => `${value} s`) }, { ...axis, size: 58 }],
+        axes: [{ ...axis, size: 28, values: (_chart, values) => values.map((value) => `${value} s`) }, { ...axis, size: 58, values: (_chart, values) => values.map((value) => (Math.abs(value) >= 2000 ? `${value / 1000}k` : `${value}`).replace("-", "−")) }],
         series: [{}, ...names.map((name, i) => ({ label: PLAY_NAMES[name] ?? name, stroke: colours[i], width: 2, dash: i === 1 ? [6, 3] : undefined }))],
       }, [times, ...names.map((name) => rows[name])], place);
       chart.unit = unit;

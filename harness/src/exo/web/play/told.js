@@ -12,7 +12,7 @@ function playTold(bench) {
   const $ = (id) => document.getElementById(id);
   const testbed = bench.kind === "testbed";
   const surface = testbed ? "wall" : "table";
-  let [run, pressed, before, stuck, full] = [0, 0, 0, 0, 10];
+  let [run, pressed, before, pushed, full] = [0, 0, 0, false, 10];
   const say = (element, text) => element.textContent !== text && (element.textContent = text);
 
   function banner(state) {
@@ -25,7 +25,7 @@ function playTold(bench) {
     const numbers = {
       sticks: `for ${state.stuck.toFixed(1)} s: the hand pulls away, the ${testbed ? "mass" : "handle"} stays.`,
       touches: `pressed with ${Math.abs(contact ?? 0).toFixed(1)} N`,
-      letgo: `after ${state.stuck.toFixed(1)} s of sticking`,
+      letgo: `${state.stuck.toFixed(2)} s after the hand has turned`,
       free: "",
     };
     $("lasted").textContent = numbers[kind];
@@ -34,16 +34,18 @@ function playTold(bench) {
 
   function hint(state, kind) {
     const pushing = testbed ? state.force[0] > 0.3 : state.force[2] < -1;
-    if (state.run !== run) [run, pressed, stuck] = [state.run, 0, 0];
+    if (state.run !== run) [run, pressed, pushed] = [state.run, 0, false];
     else if (kind === "touches" && pushing) pressed += Math.max(0, state.time - before);
     before = state.time;
-    if (kind === "sticks") stuck = state.stuck;
+    pushed ||= state.force.some((force) => Math.abs(force) > 0.3);
     const behind = testbed ? state.values["controller.q_n"] - state.settings.wall : 0;
     const nominal = behind > 0.1 && state.word !== "free" ? ` The law's nominal mass is ${behind.toFixed(1)} m behind the wall, so the drive still pushes.` : "";
+    if (kind === "sticks") return `${state.repeats ? "The hand pulls" : "You pull"}, and it stays.${nominal} Try the same push with the other law.`;
+    if (state.let_go !== null && kind !== "touches") {
+      const came = state.stuck >= 0.5 ? `It was stuck for ${state.stuck.toFixed(1)} s.` : `It came away ${state.stuck.toFixed(2)} s after the hand had turned.`;
+      return `${came} Try the same push with the other law.`;
+    }
     if (state.repeats) return `The hand repeats your push by itself. Take the handle when you like.${nominal}`;
-    if (kind === "sticks") return `You pull, and it stays.${nominal} Try the same push with the other law.`;
-    if (kind === "letgo" || (stuck > 0 && kind === "free")) return `It was stuck for ${state.stuck.toFixed(1)} s. Compare with the other law.`;
-    if (kind === "free" && pressed > 1) return "It came away at once. Try the same push with the other law.";
     if (kind === "touches" && pressed >= 5) return `Now pull back.${nominal}`;
     if (kind === "touches" && pushing) return `Hold: ${Math.max(0, 5 - pressed).toFixed(0)} s more, then pull back.${nominal}`;
     if (kind === "touches") return `Pull back.${nominal}`;
@@ -78,6 +80,7 @@ function playTold(bench) {
       const other = state.settings.law === "standard" ? ["passive_bounded", "bounded"] : ["standard", "standard"];
       say($("repeat"), `Same push with the ${other[1]} law`);
       $("repeat").dataset.law = other[0];
+      $("repeat").disabled = !pushed;
     },
   };
 }
