@@ -44,6 +44,10 @@ class Hand:
         self.push = self._numbers("push", force, self.strongest, "N")
         self._taken()
 
+    def let_go(self) -> None:
+        """Neither grips nor pushes, and has no script."""
+        self.target, self.push, self.script = None, [0.0] * self.axes, ()
+
     def stiffen(self, stiffness: object) -> None:
         """N/m"""
         if isinstance(stiffness, bool) or not isinstance(stiffness, int | float):

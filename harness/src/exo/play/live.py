@@ -192,8 +192,8 @@ class Live:
         """Begins a new run; with `same_hand` the forces of this one push until somebody takes the handle."""
         with self._lock:
             script = tuple(tuple(self._points.get(axis, ())) for axis in self.bench.force)
+            self._hand.let_go()
             self._hand.script = script if same_hand and all(len(one) > 1 for one in script) else ()
-            self._hand.aim(None)
             self._again = True
 
     def other(self, name: str, given: object) -> None:

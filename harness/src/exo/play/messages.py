@@ -18,6 +18,7 @@ from pathlib import Path
 from typing import Any
 
 from exo.errors import ExoError, close_matches
+from exo.naming import file_name
 from exo.play import saved
 from exo.play.live import Live
 
@@ -85,8 +86,9 @@ def _hand(live: Live, given: object) -> None:
 def _save(live: Live, given: object, out: Path, run_options: str) -> Answer:
     if not isinstance(given, str):
         raise ExoError(f"save: {given!r:.40}: expected a name")
+    name = file_name(given.strip())
     try:
-        path = saved.write(live.tables(), out, given.strip())
+        path = saved.write(live.tables(), out, name)
     except OSError as error:
         raise ExoError(f"{out}: cannot be written: {error.strerror or error}; expected a folder") from error
     return {"saved": str(path), "command": f"exo run {shlex.quote(str(path))}{run_options}"}

@@ -76,11 +76,10 @@ def write(found: dict[str, Any], place: Path, name: str) -> Path:
     ValueError, if a file cannot have this name.
     """
     file_name(name)
-    text = _toml(found, name)
     for number in range(1, MANY):
         path = place / (f"{name}.toml" if number == 1 else f"{name}-{number}.toml")
         if not path.exists():
-            folder.write_file(path, text.encode())
+            folder.write_file(path, _toml(found, path.stem).encode())
             return path
     raise ValueError(f"{place} has {MANY} files {name}*.toml; expected another name")
 
