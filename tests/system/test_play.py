@@ -1,4 +1,4 @@
-"""The run behind the page of `exo play`: it is repeated bit for bit, it sticks and lets go as the laws do, it takes no nonsense."""
+"""The run behind the page of `exo play`: repeated bit for bit, sticking and letting go as the laws do."""
 
 import re
 from collections.abc import Callable
@@ -9,9 +9,11 @@ from typing import Any
 
 import numpy as np
 import pytest
+from typer.testing import CliRunner
 
 from exo import experiment as experiments
 from exo import loop, selection
+from exo.cli import app
 from exo.errors import ExoError
 from exo.play import bench as benches
 from exo.play import live as lives
@@ -19,12 +21,9 @@ from exo.play import messages, saved
 from exo.play.contact import LONG
 from exo.play.hand import Hand
 from exo.play.live import Live, State
-from typer.testing import CliRunner
-
-from exo.cli import app
 
 
-def wait(live: Live, until: Callable[[State], Any], *, within: float = 20.0) -> State:
+def wait(live: Live, until: Callable[[State], Any], *, within: float = 60.0) -> State:
     """The first state that is seen to satisfy `until`."""
     end = perf_counter() + within
     while perf_counter() < end:
@@ -37,9 +36,7 @@ def wait(live: Live, until: Callable[[State], Any], *, within: float = 20.0) -> 
 
 def played(kind: str, fmu_dir: Path, *, clock: bool = False, **settings: Any) -> Live:
     """A run that has nobody at its handle yet."""
-    return Live(
-        benches.named(kind), fmu_dir=fmu_dir, engine=loop.fastest(), clock=clock, settings=settings or None
-    )
+    return Live(benches.named(kind), fmu_dir=fmu_dir, engine=loop.fastest(), clock=clock, settings=settings or None)
 
 
 def halted(live: Live) -> State:
@@ -230,7 +227,7 @@ def test_a_hand_pushes_no_harder_than_it_can() -> None:
 @pytest.mark.parametrize("target", [[0.1, 0.2], "left", [float("nan")], [1e9], [True], {}, [None], 3])
 def test_a_hand_goes_nowhere_where_there_is_no_place(target: object) -> None:
     hand = Hand(axes=1, strongest=10.0, stiffness=100.0)
-    with pytest.raises(ExoError, match="target = .*expected"):
+    with pytest.raises(ExoError, match=r"target = .*expected"):
         hand.aim(target)
     assert hand.target is None
 

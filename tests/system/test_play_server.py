@@ -1,4 +1,4 @@
-"""The socket of `exo play`: who may come in, what it does with garbage and floods, and that no page holds up another."""
+"""The socket of `exo play`: who may come in, what becomes of garbage and floods, and that no page holds up another."""
 
 import json
 import os
@@ -48,7 +48,9 @@ class Served:
         except HTTPError as error:
             return error.code, error.read().decode(), {k.lower(): v for k, v in error.headers.items()}
 
-    def tab(self, *, token: str = TOKEN, origin: str | None = "own", host: str = "", **options: Any) -> ClientConnection:
+    def tab(
+        self, *, token: str = TOKEN, origin: str | None = "own", host: str = "", **options: Any
+    ) -> ClientConnection:
         """A socket as a page opens it."""
         own = f"http://127.0.0.1:{self.port}"
         headers = {"Host": host} if host else {}
@@ -157,7 +159,7 @@ def test_the_socket_is_refused(how: dict[str, Any], served: Served) -> None:
 def test_the_port_is_open_on_this_machine_alone(served: Served) -> None:
     outside = {info[4][0] for info in socket.getaddrinfo(socket.gethostname(), None, socket.AF_INET)}
     for address in outside - {"127.0.0.1"}:
-        with pytest.raises(OSError, match="refused|timed out"):
+        with pytest.raises(OSError, match=r"refused|timed out"):
             socket.create_connection((address, served.port), timeout=2)
     assert server.HOST == "127.0.0.1"
 
@@ -198,8 +200,7 @@ def test_a_message_that_is_too_large_ends_its_socket_alone(served: Served) -> No
             assert "expected" in answer(tab, "error")
             tab.send(json.dumps({"save": "x" * 5000}))
             with pytest.raises(ConnectionClosed) as closed:
-                for _ in range(100):
-                    tab.recv(timeout=5)
+                answer(tab, "nothing else")
             assert closed.value.rcvd is not None
             assert closed.value.rcvd.code == 1009
         assert answer(other, "state")["status"] in GOES_ON
@@ -254,12 +255,10 @@ def test_an_fmu_that_fails_is_a_sentence_on_the_page(served: Served, monkeypatch
 
 
 def test_too_many_pages_are_told_to_come_later(served: Served) -> None:
-    tabs = []
+    tabs = [served.tab() for _ in range(server.TABS)]
     try:
         with pytest.raises(InvalidStatus):
-            tabs.extend(served.tab() for _ in range(server.TABS + 1))
-            for _ in range(server.TABS + 1 - len(tabs)):
-                tabs.append(served.tab())
+            served.tab()
     finally:
         for tab in tabs:
             tab.close()
@@ -289,6 +288,7 @@ def test_ctrl_c_ends_the_command(fmu_dir: Path, tmp_path: Path) -> None:
         process.stdout.readline()
         sleep(0.3)
         process.send_signal(signal.SIGINT)
-        _, said = process.communicate(timeout=20)
+        # The interpreter takes half a second of processor time to end, which may be long while others compute.
+        _, said = process.communicate(timeout=120)
     assert process.returncode == 130
     assert "Traceback" not in said

@@ -1,4 +1,4 @@
-"""The page as it is served: one document with all scripts and styles in it, and a policy that forbids everything else."""
+"""The page as it is served: one document with its scripts and styles, and a policy that forbids everything else."""
 
 import json
 from importlib.resources import files
