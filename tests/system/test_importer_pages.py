@@ -31,7 +31,9 @@ def place(tmp_path: Path) -> Path:
     return tmp_path
 
 
-@pytest.mark.parametrize(("page", "said"), [("fmpy", ""), ("ecos", r"0\.\d+"), ("libcosim", r"\[0\.\d+\]"), ("../tour", r"0\.300")])
+@pytest.mark.parametrize(
+    ("page", "said"), [("fmpy", ""), ("ecos", r"0\.\d+"), ("libcosim", r"\[0\.\d+\]"), ("../tour", r"0\.300")]
+)
 def test_the_python_of_a_page_runs(place: Path, page: str, said: str) -> None:
     blocks = BLOCK.findall((PAGES / f"{page}.md").read_text(encoding="utf-8"))
     assert blocks
