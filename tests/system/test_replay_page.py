@@ -430,9 +430,22 @@ def test_without_webgl_a_sentence_says_so_and_the_arm_is_seen_from_the_side(
 
 def test_what_is_disposed_of_leaves_nothing_behind(payload: Experiment, opened: Opening) -> None:
     page = opened(scene(payload))
+    listening = page.page.evaluate(
+        """() => {
+            let count = 0;
+            const counted = { ...bus, range: bus.range, subscribe(listener) {
+                const stop = bus.subscribe(listener);
+                count += 1;
+                return () => ((count -= 1), stop());
+            } };
+            const another = exoReplay.mount(place, given, counted);
+            const before = count;
+            another.dispose();
+            return [before > 0, count];
+        }"""
+    )
+    assert listening == [True, 0]
     page.page.evaluate("handle.dispose()")
-    assert page.page.evaluate("place.childElementCount") == 0
-    page.page.evaluate("bus.set(5, 'plots')")
     assert page.page.evaluate("place.childElementCount") == 0
 
 

@@ -1,7 +1,6 @@
 """Which instants of a run are kept, so that straight lines between them show what happened."""
 
 from collections.abc import Iterable, Sequence
-from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -56,18 +55,26 @@ def straightened(time: NDArray[np.float64], scaled: NDArray[np.float64], must: N
     stay = must.copy()
     stay[[0, -1]] = True
     ends = np.flatnonzero(stay)
-    open_stretches = list(pairwise(ends))
-    while open_stretches:
-        begin, end = open_stretches.pop()
-        if end - begin < 2:
-            continue
-        inside = slice(begin + 1, end)
-        share = ((time[inside] - time[begin]) / (time[end] - time[begin]))[:, None]
+    # Rows that are not settled, and between which of those that stay each of them lies.
+    rows = np.flatnonzero(~stay)
+    after = np.searchsorted(ends, rows)
+    begin, end = ends[after - 1], ends[after]
+    while len(rows):
+        share = ((time[rows] - time[begin]) / (time[end] - time[begin]))[:, None]
         line = scaled[begin] + share * (scaled[end] - scaled[begin])
-        distance = np.max(np.abs(scaled[inside] - line), axis=1)
-        farthest = int(np.argmax(distance))
-        if distance[farthest] > 1.0:
-            middle = begin + 1 + farthest
-            stay[middle] = True
-            open_stretches += [(begin, middle), (middle, end)]
+        distance = np.max(np.abs(scaled[rows] - line), axis=1)
+        starts = np.flatnonzero(np.diff(begin, prepend=-1))
+        lengths = np.diff(starts, append=len(rows))
+        worst = np.maximum.reduceat(distance, starts)
+        hits = np.flatnonzero((distance > 1.0) & (distance == np.repeat(worst, lengths)))
+        _, first = np.unique(begin[hits], return_index=True)
+        # Of each stretch the row that splits it; -1 where all are near enough.
+        splits = np.full(len(starts), -1)
+        splits[worst > 1.0] = rows[hits[first]]
+        stay[rows[hits[first]]] = True
+        middle = np.repeat(splits, lengths)
+        left = rows < middle
+        begin, end = np.where(left, begin, middle), np.where(left, middle, end)
+        unsettled = (middle >= 0) & (rows != middle)
+        rows, begin, end = rows[unsettled], begin[unsettled], end[unsettled]
     return stay
