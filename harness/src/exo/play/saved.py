@@ -23,12 +23,12 @@ def tables(
     duration: float,
     name: str = "played",
 ) -> dict[str, Any]:
-    """The scenario's tables. `settings`: a value for each knob; `profiles`: points of the hand's axes (N), of live knobs
-    and of switches, by their ids."""
+    """The scenario's tables.
+
+    `settings`: a value for each knob; `profiles`: points of the hand's axes (N), of live knobs and of switches, by id.
+    """
     fixed = {key: settings[knob.id] for knob in bench.knobs if not knob.live for key in knob.keys}
     live = {key: f"profile.{knob.id}" for knob in bench.knobs if knob.live for key in knob.keys}
-    # What a profile gives in step 0 is what the controller begins with, without a ramp to it.
-    begin = {key: settings[knob.id] for knob in bench.knobs if knob.live for key in knob.keys}
     pushed = {key: f"profile.{axis}" for axis, keys in bench.force.items() for key in keys}
     switched = {key: f"profile.{one}" for one, keys in bench.switches.items() for key in keys}
     return {
@@ -40,7 +40,7 @@ def tables(
         "duration": duration,
         "step": bench.step,
         "signals": list(dict.fromkeys([*bench.shown, *(keys[0] for keys in bench.force.values())])),
-        "parameters": {**bench.parameters, **begin, **fixed},
+        "parameters": {**bench.parameters, **fixed},
         "inputs": {**pushed, **live, **switched},
         "profiles": {one: [{"kind": "table", "points": [list(p) for p in points]}] for one, points in profiles.items()},
         "cases": [{"id": name, "label": "played"}],
@@ -71,13 +71,15 @@ def thinned(points: Points) -> list[tuple[float, float]]:
 
 
 def write(found: dict[str, Any], place: Path, name: str) -> Path:
-    """`<place>/<name>.toml`, or with a number behind where that is taken. ValueError, if a file cannot have this name."""
+    """`<place>/<name>.toml`, or with a number behind where that is taken.
+
+    ValueError, if a file cannot have this name.
+    """
     file_name(name)
-    text = _toml(found, name)
     for number in range(1, MANY):
         path = place / (f"{name}.toml" if number == 1 else f"{name}-{number}.toml")
         if not path.exists():
-            folder.write_file(path, text.encode())
+            folder.write_file(path, _toml(found, path.stem).encode())
             return path
     raise ValueError(f"{place} has {MANY} files {name}*.toml; expected another name")
 

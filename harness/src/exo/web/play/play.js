@@ -1,0 +1,49 @@
+// The page of `exo play`: what comes from the socket goes to drawing, words, knobs and charts.
+"use strict";
+
+(() => {
+  const bench = JSON.parse(document.getElementById("bench").textContent);
+  const testbed = bench.kind === "testbed";
+  const place = document.getElementById("drawing");
+  let [drawing, state] = [null, null];
+
+  const send = playLink(taken, (open) => {
+    document.getElementById("lost").hidden = open;
+    if (!open) state = null;
+  });
+  const told = playTold(bench);
+  const hand = playHand(bench, send, () => state && Object.keys(state.values).length ? bench.position.map((name) => state.values[name]) : null);
+  const knobs = playKnobs(bench, send);
+  const charts = playCharts(bench);
+  document.getElementById("modes").hidden = testbed;
+
+  function taken(message) {
+    if (message.geometry) shape(message.geometry);
+    else if (message.state) update(message.state);
+    else knobs.answered(message);
+  }
+  function shape(geometry) {
+    if (drawing) return drawing.reshape(geometry);
+    drawing = exoReplay.live(place, geometry);
+    // The mouse leads the handle in this view.
+    [...place.querySelectorAll("button")].find((one) => one.textContent === "Side")?.click();
+    return undefined;
+  }
+  function update(next) {
+    // In a new run nobody holds the handle.
+    if (state && next.run !== state.run) hand.cleared();
+    state = next;
+    told.update(state);
+    knobs.update(state);
+    charts.update(state);
+    if (drawing && Object.keys(state.values).length) drawing.update(drawn(state));
+  }
+  function drawn({ time, values, force }) {
+    if (testbed) return { time, q: values["plant.q"], q_n: values["controller.q_n"], tau_h: force[0], tau_a: values["controller.tau_a"], tau_e: values["plant.tau_e"] };
+    const vector = (name) => [1, 2, 3].map((i) => values[`${name}[${i}]`]);
+    const arm = { q: vector("plant.q"), p_n: vector("controller.p_n"), f_h: force, f_e: vector("plant.f_e"), tension: values["plant.tension"] };
+    return { time, arms: [arm], attached: values["plant.attached"] > 0.5 };
+  }
+  /** For tests. */
+  window.exoPlay = { state: () => state, drawn: () => drawing?.state(), charts: () => charts.data() };
+})();

@@ -1,0 +1,191 @@
+"""The page of `exo play` in a browser: by mouse, keys and knobs, with a run that is saved."""
+
+import shutil
+import threading
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from time import monotonic, sleep
+from typing import Any
+
+import pytest
+
+from exo import loop, selection
+from exo.play import bench as benches
+from exo.play import server
+from exo.play.live import Live
+
+WEBGL = ("--use-angle=swiftshader", "--enable-unsafe-swiftshader")
+
+
+@pytest.fixture(scope="module")
+def browser() -> Iterator[Any]:
+    """A browser that asks nothing of its own."""
+    path = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
+    if path is None:
+        pytest.skip("no browser: neither chromium nor chromium-browser nor google-chrome is on the PATH")
+    tool = pytest.importorskip("playwright.sync_api", reason="playwright is not installed").sync_playwright
+    with tool() as playwright:
+        started = playwright.chromium.launch(
+            executable_path=path, args=["--no-sandbox", "--disable-background-networking", *WEBGL]
+        )
+        yield started
+        started.close()
+
+
+@pytest.fixture
+def opened(browser: Any, fmu_dir: Path, tmp_path: Path) -> Iterator[Callable[..., Any]]:
+    """Opens a bench in a page, and finds after the test that the page had no complaint and asked nobody else."""
+    complaints: list[str] = []
+    requests: list[str] = []
+    ends: list[Callable[[], None]] = []
+    origins: list[str] = []
+
+    def open_page(kind: str, *, width: int = 1000, dark: bool = False) -> Any:
+        bound = server.bind(0)
+        live = Live(benches.named(kind), fmu_dir=fmu_dir, engine=loop.fastest()).__enter__()
+        live.begun()
+        running = server.server(live, token="tests", out=tmp_path / "played")
+        thread = threading.Thread(target=lambda: running.run(sockets=[bound]))
+        thread.start()
+        page = browser.new_page(
+            viewport={"width": width, "height": 900}, color_scheme="dark" if dark else "light", reduced_motion="reduce"
+        )
+        page.on("console", lambda said: complaints.append(said.text) if said.type in ("error", "warning") else None)
+        page.on("pageerror", lambda error: complaints.append(str(error)))
+        page.on("request", lambda request: requests.append(request.url))
+        address = server.address(bound, "tests")
+        origins.append(address)
+
+        def end() -> None:
+            page.close()
+            running.should_exit = True
+            thread.join(timeout=10)
+            live.__exit__()
+            bound.close()
+
+        ends.append(end)
+        page.goto(address)
+        until(page, "state.time > 0.1")
+        return page
+
+    yield open_page
+    for end in ends:
+        end()
+    # Of the software WebGL, not of the page.
+    assert [text for text in complaints if "GPU stall due to ReadPixels" not in text] == []
+    assert [url for url in requests if not url.startswith(("data:", "blob:"))] == origins
+
+
+def until(page: Any, test: str, *, within: float = 90.0) -> Any:
+    """The state of the page when `test`, in JavaScript about `state`, is true.
+
+    The page's policy forbids the browser's own way to wait, which evaluates a text.
+    """
+    end = monotonic() + within
+    while monotonic() < end:
+        found = page.evaluate(
+            f"(() => {{ const state = exoPlay.state(); return state && ({test}) ? state : null; }})()"
+        )
+        if found:
+            return found
+        sleep(0.03)
+    return pytest.fail(f"not within {within} s: {test}; the state: {page.evaluate('exoPlay.state()')}")
+
+
+def drag(page: Any, *, right: float, down: float = 0.0) -> None:
+    """Takes the drawing in its middle and leads it by shares of its width and height; does not let go."""
+    place = page.locator("#grip .er-draw")
+    place.scroll_into_view_if_needed()
+    box = place.bounding_box()
+    x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+    page.mouse.move(x, y)
+    page.mouse.down()
+    page.mouse.move(x + right * box["width"], y + down * box["height"], steps=5)
+
+
+def test_the_wall_is_understood_with_the_mouse(opened: Callable[..., Any]) -> None:
+    page = opened("testbed")
+    assert "Push the mass into the wall, hold for five seconds, then pull back" in page.inner_text("#hint")
+    page.select_option("#knob-law", "standard")
+    drag(page, right=0.4)
+    touched = until(page, "state.word === 'touches' && state.values['controller.q_n'] > 2")
+    assert touched["target"][0] > 0.3
+    drawn = page.evaluate("exoPlay.drawn()")
+    assert drawn["q"] == pytest.approx(0.3, abs=0.02)
+    assert "Hold" in page.inner_text("#hint")
+    box = page.locator("#grip").bounding_box()
+    page.mouse.move(box["x"] + box["width"] * 0.3, box["y"] + 100, steps=3)
+    until(page, "state.word === 'sticks'")
+    assert page.inner_text("#word") == "Sticks"
+    assert "behind the wall" in page.inner_text("#hint")
+    assert "not passive" in page.inner_text("#tank-text")
+    page.mouse.up()
+    assert until(page, "state.target === null")
+    assert page.evaluate("exoPlay.charts().times") > 20
+
+    page.click("#repeat")
+    until(page, "state.settings.law === 'passive_bounded' && state.repeats")
+    let_go = until(page, "state.let_go !== null")
+    assert let_go["stuck"] < 0.5
+    assert "It came away" in page.inner_text("#hint")
+    assert page.inner_text("#repeat") == "Same push with the standard law"
+
+
+def test_keys_push_and_the_space_bar_lets_go(opened: Callable[..., Any]) -> None:
+    page = opened("testbed", width=390, dark=True)
+    page.keyboard.down("ArrowRight")
+    until(page, "state.force[0] === 2.5 && state.values['plant.q'] > 0.02")
+    page.keyboard.up("ArrowRight")
+    until(page, "state.force[0] === 0")
+    page.fill("#forces input", "-3")
+    until(page, "state.force[0] === -3")
+    page.focus("#grip")
+    page.keyboard.press("Space")
+    until(page, "state.force[0] === 0")
+
+
+def test_knobs_act_and_a_run_is_saved(opened: Callable[..., Any], tmp_path: Path) -> None:
+    page = opened("testbed")
+    page.fill("#knob-K", "40")
+    until(page, "state.settings.K === 40 && state.run === 1")
+    page.fill("#knob-stiffness", "500")
+    until(page, "state.stiffness === 500")
+    page.click("#pause")
+    until(page, "state.paused")
+    assert page.inner_text("#pause") == "Go on"
+    page.fill("#save-name", "../x")
+    page.click("#save button")
+    page.get_by_text("expected letters, digits").wait_for()
+    page.fill("#save-name", "by-hand")
+    page.click("#save button")
+    page.locator("#saved code").wait_for()
+    file = tmp_path / "played" / "by-hand.toml"
+    assert page.inner_text("#saved code") == f"exo run {file}"
+    [data] = selection.load([str(file)])
+    assert data.id == "by-hand"
+    page.click("#pause")
+    page.click("#again")
+    until(page, "state.run === 2 && !state.paused")
+
+
+def test_the_arm_follows_the_mouse_in_three_dimensions(opened: Callable[..., Any]) -> None:
+    page = opened("arm")
+    before = until(page, "state.time > 0.2")["values"]
+    drag(page, right=0.03, down=-0.1)
+    after = until(page, f"state.values['plant.p[3]'] > {before['plant.p[3]']} + 0.03")["values"]
+    assert page.evaluate("exoPlay.drawn()")["arms"][0]["hand"][2] == pytest.approx(after["plant.p[3]"], abs=0.05)
+    page.mouse.up()
+    page.check("#switch-vacuum")
+    until(page, "state.switches.vacuum && state.target === null")
+
+
+@pytest.mark.parametrize("width", [390, 800, 1400])
+def test_nothing_is_cut_off(width: int, opened: Callable[..., Any]) -> None:
+    page = opened("testbed", width=width, dark=width == 800)
+    assert page.evaluate("document.documentElement.scrollWidth") == width
+    controls = "[...document.querySelectorAll('button, input, select')]"
+    unnamed = f"{controls}.filter((one) => !(one.labels?.length || one.textContent.trim() || one.ariaLabel)).length"
+    assert page.evaluate(unnamed) == 0
+    assert page.evaluate("getComputedStyle(document.body).backgroundColor") == (
+        "rgb(20, 24, 30)" if width == 800 else "rgb(255, 255, 255)"
+    )
