@@ -46,11 +46,8 @@ app.command("list")(scenarios.list_scenarios)
 app.command("schema")(scenarios.print_schema)
 app.command("run")(scenarios.run)
 app.command("reproduce")(scenarios.reproduce)
-<<<<<<< HEAD
 app.command("report")(report.report)
-=======
 app.command("play")(play.play)
->>>>>>> play
 app.command("sweep")(sweep.run_sweep)
 app.command("compare")(compare.compare)
 app.command("requirements")(requirements.list_requirements)
