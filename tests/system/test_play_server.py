@@ -180,6 +180,7 @@ def test_a_page_that_closes_while_it_grips_lets_go(served: Served) -> None:
         with served.tab() as tab:
             tab.send('{"hand": {"target": [0.1], "push": [1.0]}}')
             state_where(tab, lambda state: state["target"] == [0.1])
+            state_where(other, lambda state: state["target"] == [0.1])
         state_where(other, lambda state: state["target"] is None and state["force"] == [0.0])
 
 
