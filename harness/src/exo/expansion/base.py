@@ -39,6 +39,10 @@ def read(text: str, *, origin: str) -> dict[str, Any]:
         data = tomllib.loads(text)
     except ValueError as error:  # beside TOMLDecodeError: an integer of thousands of digits
         raise ScenarioError(f"{origin}: not TOML: {error}") from error
+    except RecursionError:
+        raise ScenarioError(
+            f"{origin}: nested too deeply; expected tables and arrays as in docs/scenarios.md"
+        ) from None
     return placed(data, origin=origin)
 
 
