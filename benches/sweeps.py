@@ -6,9 +6,10 @@ and nothing else. What counts is `machine_time`: on a machine that does nothing 
 """
 
 import tempfile
-import threading
 from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import ExitStack, suppress
+from dataclasses import replace
 from importlib.util import find_spec
 from pathlib import Path
 from statistics import median
@@ -20,7 +21,7 @@ from benches.engines import CASE, RUN_S, SCENARIO, STEP, coupled_testbed
 from benches.row import Bench, Found, NotRun, Row
 from benches.turns import cores, in_turns, quarters
 from exo import sweep
-from exo.coupled import Coupled
+from exo.coupled import Coupled, _initialize
 from exo.plan import Plan
 
 #: Runs of a sweep; rounds, at most; Dask's workers.
@@ -124,17 +125,19 @@ def swept(bench: Bench, study: Path, *, workers: int | None = None, scheduler: s
 def raw(bench: Bench, pairs: list[tuple[Plan, Coupled]], steps: int) -> float:
     """Seconds a run of the raw C loop on a thread for each pair; setting up does not count."""
     library = c_loop.load(bench)
-    for _, coupled in pairs:
-        coupled.start(pairs[0][0])
+    for plan, coupled in pairs:
+        coupled.start(plan)
+        # One run after the other, without a reset between them: the FMUs must not end after the first one.
+        for part in coupled._parts.values():
+            part.instance.reset()
+        _initialize(replace(plan, duration=RAW_RUNS * plan.duration), coupled._parts, coupled._wires)
 
     def runs(coupled: Coupled) -> None:
         for k in range(RAW_RUNS):
             c_loop.pair(library, coupled, steps, STEP, first=k * steps)
 
-    threads = [threading.Thread(target=runs, args=(coupled,)) for _, coupled in pairs]
-    began = machine_time()
-    for thread in threads:
-        thread.start()
-    for thread in threads:
-        thread.join()
+    with ThreadPoolExecutor(len(pairs)) as threads:
+        began = machine_time()
+        # A list, so that what has failed in a thread fails here.
+        list(threads.map(runs, [coupled for _, coupled in pairs]))
     return (machine_time() - began) / (RAW_RUNS * len(pairs))
