@@ -225,6 +225,8 @@ class Instance:
         self.messages: deque[tuple[str, str]] = deque(maxlen=200)
         self._environment = next(ENVIRONMENTS)
         self._fatal = False
+        #: Each is looked up once: that takes as long as a dozen steps.
+        self._functions: dict[str, Any] = {}
         self._callbacks = callbacks(self._environment)
         description = archive.description
         library = archive.library
@@ -245,10 +247,12 @@ class Instance:
 
     def function(self, name: str) -> Any:
         """A C function without argument types: give it ctypes objects. fmpy's own object keeps its types."""
-        try:
-            return self._slave.dll[name]
-        except AttributeError:
-            raise FmuError(f"{self.archive.path}: its library has no {name}") from None
+        if name not in self._functions:
+            try:
+                self._functions[name] = self._slave.dll[name]
+            except AttributeError:
+                raise FmuError(f"{self.archive.path}: its library has no {name}") from None
+        return self._functions[name]
 
     def __enter__(self) -> Self:
         MESSAGES[self._environment] = self.messages

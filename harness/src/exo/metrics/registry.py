@@ -3,6 +3,7 @@
 import inspect
 import json
 from collections.abc import Callable, Mapping
+from functools import cache
 from typing import Any
 
 from pydantic import ConfigDict, TypeAdapter, ValidationError
@@ -22,9 +23,15 @@ def metric(function: Function) -> Function:
     return function
 
 
+@cache
+def _signature(function: Function) -> inspect.Signature:
+    """Asked for at each run of a sweep; reading it takes a twentieth of one."""
+    return inspect.signature(function)
+
+
 def complete(function: str, arguments: Mapping[str, Any]) -> dict[str, Any]:
     """The arguments with the components that they leave out."""
-    taken = inspect.signature(REGISTRY[function]).parameters if function in REGISTRY else {}
+    taken = _signature(REGISTRY[function]).parameters if function in REGISTRY else {}
     return {name: name for name in COMPONENTS if name in taken} | dict(arguments)
 
 
@@ -52,11 +59,11 @@ def check(
         raise ScenarioError(f"{owner}: unknown function {function}{close_matches(function, REGISTRY)}")
     full = complete(function, arguments)
     try:
-        inspect.signature(REGISTRY[function]).bind(None, **full)
+        _signature(REGISTRY[function]).bind(None, **full)
     except TypeError as error:
         raise ScenarioError(f"{owner}: {function}: {error}") from error
     for name, value in full.items():
-        wanted = inspect.signature(REGISTRY[function]).parameters[name].annotation
+        wanted = _signature(REGISTRY[function]).parameters[name].annotation
         try:
             TypeAdapter(wanted, config=ConfigDict(allow_inf_nan=False)).validate_json(
                 json.dumps(value, default=str), strict=True
