@@ -22,7 +22,7 @@ import numpy as np
 
 from benches import c_loop
 from benches.row import Bench, Found, Row
-from benches.turns import in_turns, pinned, quarters
+from benches.turns import Times, in_turns, pinned, quarters
 from exo import master
 from exo.coupled import Coupled
 from exo.fmu import Archive
@@ -55,6 +55,19 @@ def engine(plan: Plan, coupled: Coupled, name: Engine) -> float:
     began = thread_time()
     coupled.advance(engine=name)
     return thread_time() - began
+
+
+def beside(times: Times, peer: str, name: str, *, limit: float | None = None, aim: float | None = None) -> Row:
+    """The native engine beside another one, with what a macro step takes."""
+    us = [1e6 * times.median(one) / STEPS for one in ("native", peer)]
+    return Row(
+        name=f"native engine / {name}",
+        value=times.ratio("native", peer),
+        spread=times.spread("native", peer),
+        limit=limit,
+        aim=aim,
+        told=f"{us[0]:.2f} µs / {us[1]:.2f} µs a macro step",
+    )
 
 
 def measure(bench: Bench) -> Iterator[Found]:
@@ -90,16 +103,8 @@ def measure(bench: Bench) -> Iterator[Found]:
             },
             bench.rounds,
         )
-    us = {name: 1e6 * times.median(name) / STEPS for name in times.seconds}
-    for peer, name, limit, aim in (("raw", "raw C loop", 1.25, 1.1), ("fmpy", "fmpy engine", 1 / 4, 1 / 6)):
-        yield Row(
-            name=f"native engine / {name}, testbed pair, recorded",
-            value=times.ratio("native", peer),
-            spread=times.spread("native", peer),
-            limit=limit,
-            aim=aim,
-            told=f"{us['native']:.2f} µs / {us[peer]:.2f} µs a macro step",
-        )
+    yield beside(times, "raw", "raw C loop, testbed pair, recorded", limit=1.25, aim=1.1)
+    yield beside(times, "fmpy", "fmpy engine, testbed pair, recorded", limit=1 / 4, aim=1 / 6)
     own = [1e9 * took / STEPS for took in times.seconds["empty"]]
     yield Row(
         name="native engine's own cost a macro step",

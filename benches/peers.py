@@ -20,8 +20,8 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
-from benches.engines import STEP, STEPS, coupled_testbed, engine
-from benches.row import Bench, Found, NotRun, Row
+from benches.engines import STEP, STEPS, beside, coupled_testbed, engine
+from benches.row import Bench, Found, NotRun
 from benches.turns import Times, in_turns, pinned
 from exo.coupled import Coupled
 from exo.fmu import Archive
@@ -45,7 +45,7 @@ def measure(bench: Bench) -> Iterator[Found]:
         with coupled_testbed(bench) as (plan, coupled):
             job = {"tool": "libcosim", "folder": str(bench.fmu_dir)}
             times = _beside(plan, coupled, {"libcosim": lambda: child(job)}, rounds)
-        yield _row(times, "libcosim", "libcosim with series, testbed pair", limit=1 / 4, aim=1 / 6)
+        yield beside(times, "libcosim", "libcosim with series, testbed pair", limit=1 / 4, aim=1 / 6)
     with closed_testbed(bench) as (plan, coupled, archive, default):
         work: dict[str, Callable[[], float]] = {}
         library = tbb()
@@ -62,24 +62,12 @@ def measure(bench: Bench) -> Iterator[Found]:
         if work:
             times = _beside(plan, coupled, work, rounds)
             for tool in work:
-                yield _row(times, tool, f"{tool[0].upper()}{tool[1:]}, testbed and operator")
+                yield beside(times, tool, f"{tool[0].upper()}{tool[1:]}, testbed and operator")
 
 
 def _beside(plan: Plan, coupled: Coupled, work: Mapping[str, Callable[[], float]], rounds: int) -> Times:
     with pinned():
         return in_turns({"native": lambda: engine(plan, coupled, "native"), **work}, rounds)
-
-
-def _row(times: Times, peer: str, name: str, *, limit: float | None = None, aim: float | None = None) -> Row:
-    us = [1e6 * times.median(one) / STEPS for one in ("native", peer)]
-    return Row(
-        name=f"native engine / {name}",
-        value=times.ratio("native", peer),
-        spread=times.spread("native", peer),
-        limit=limit,
-        aim=aim,
-        told=f"{us[0]:.2f} µs / {us[1]:.2f} µs a macro step",
-    )
 
 
 @contextmanager

@@ -110,13 +110,23 @@ def test_the_hand_pushes(exo_run, exo_in_band):
     exo_in_band(actual=run["plant.q"] + 0.9e-3, **q)
     with pytest.raises(pytest.fail.Exception, match="leaves its band by"):
         exo_in_band(actual=run["plant.q"] + 1.5e-3, **q)
-    with pytest.raises(Exception, match="expected case, one of"):
+    with pytest.raises(Exception, match="expected the id of one of"):
         exo_run("wall")
+
+def test_fmus_and_couplings_are_fixtures(exo_fmu, exo_couple, exo_run):
+    assert exo_fmu("Testbed.fmu").inputs["tau_h"].unit == "N"
+    pair = exo_couple(
+        {"controller": "TestbedController.fmu", "plant": "Testbed.fmu"},
+        wires={"controller.q": "plant.q", "plant.tau_a": "controller.tau_a"},
+        step=0.002,
+    )
+    run = exo_run(pair, duration=6.0, inputs={"controller.tau_h": 1.0, "plant.tau_h": 1.0})
+    assert run["plant.q"][-1] == pytest.approx(0.3, abs=1e-3)
 """,
         encoding="utf-8",
     )
     done = pytest_in(tmp_path)
-    assert "1 passed" in done.stdout, done.stdout
+    assert "2 passed" in done.stdout, done.stdout
 
 
 TIME = [i / 100 for i in range(101)]

@@ -3,26 +3,30 @@
 | fixture | what |
 |---|---|
 | `exo_fmu_dir` | folder of the archives: `--exo-fmu-dir`, else `$EXO_FMU_DIR` or target/fmu |
-| `exo_run` | runs a case of a scenario, each once a session; gives its `Recording` |
+| `exo_fmu` | loads an FMU of that folder by its name |
+| `exo_couple` | couples FMUs of that folder, and others by their path |
+| `exo_run` | runs a case of a scenario, each once a session, or what was coupled; gives an `exo.Run` |
 | `exo_in_band` | fails where a signal leaves its tolerance band |
 
 `requirements.toml` and `*.requirements.toml` with requirements of exo are collected: a test for each requirement, place
 and case.
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import pytest
 
 if TYPE_CHECKING:
-    from exo.recording import Recording
+    from exo.api.fmu import Fmu
+    from exo.api.run import Run
+    from exo.api.system import System
     from exo.requirements import Requirements
     from exo.scenario import Scenario
 
-#: What is run for a session, by its file and what is changed.
-RUNS = pytest.StashKey[dict[tuple[Any, ...], Any]]()
+#: What requirements were judged on: experiments by scenario and case.
+RUNS = pytest.StashKey[dict[tuple[str, str], Any]]()
 MARK = "requirements."
 
 
@@ -49,29 +53,50 @@ def exo_fmu_dir(pytestconfig: pytest.Config) -> Path:
 
 
 @pytest.fixture(scope="session")
-def exo_run(pytestconfig: pytest.Config) -> "Callable[..., Recording]":
-    """`exo_run(scenario, case=None, duration=None, step=None, **{"controller.K": 1000})`: the case's `Recording`.
+def exo_fmu(exo_fmu_dir: Path) -> "Callable[..., Fmu]":
+    """`exo_fmu("Testbed.fmu")`: what `exo.load` gives, from `exo_fmu_dir` or, where it names a file, from there."""
 
-    `scenario` is an id or a path of a .toml file; without `case` it must have one case. Seconds; other units are the
-    FMUs'. The same call runs once a session.
+    def load(name: str | Path) -> "Fmu":
+        import exo  # noqa: PLC0415
+
+        return exo.load(name if Path(name).is_file() else exo_fmu_dir / name)
+
+    return load
+
+
+@pytest.fixture(scope="session")
+def exo_couple(exo_fmu: "Callable[..., Fmu]") -> "Callable[..., System]":
+    """`exo_couple({"plant": "Testbed.fmu"}, wires=…, step=…)`: `exo.couple`, with FMUs as `exo_fmu` takes them."""
+
+    def couple(fmus: Mapping[str, str | Path], **more: Any) -> "System":
+        import exo  # noqa: PLC0415
+
+        return exo.couple({name: exo_fmu(one) for name, one in fmus.items()}, **more)
+
+    return couple
+
+
+@pytest.fixture(scope="session")
+def exo_run(pytestconfig: pytest.Config) -> "Callable[..., Run]":
+    """`exo_run(what, case=None, duration=…, step=…, inputs=…, **{"controller.K": 1000})`: what `exo.simulate` gives.
+
+    `what` is a scenario's id, the path of a .toml file, or what `exo_couple` gives. The same call of a scenario without
+    `inputs` runs once a session.
     """
+    runs: dict[tuple[Any, ...], Any] = {}
 
-    def run(
-        scenario: str | Path,
-        case: str | None = None,
-        *,
-        duration: float | None = None,
-        step: float | None = None,
-        **more: Any,
-    ) -> "Recording":
-        from exo.errors import ScenarioError  # noqa: PLC0415
+    def run(what: Any, case: str | None = None, *, inputs: Mapping[str, Any] | None = None, **more: Any) -> "Run":
+        import exo  # noqa: PLC0415
 
-        loaded = _scenario(str(scenario))
-        ids = [one.id for one in loaded.cases]
-        if case is None and len(ids) != 1:
-            raise ScenarioError(f"{loaded.id}: expected case, one of {', '.join(ids)}")
-        done = _experiment(pytestconfig, loaded, (case or ids[0],), duration=duration, step=step, settings=more)
-        return next(iter(done.recordings.values()))  # type: ignore[no-any-return]
+        timed: dict[str, Any] = {name: more.pop(name) for name in ("duration", "step") if name in more}
+        arguments: dict[str, Any] = {"case": case, "parameters": more, "inputs": inputs, **timed}
+        arguments |= {"engine": pytestconfig.getoption("--exo-engine"), "fmu_dir": _fmu_dir(pytestconfig)}
+        if inputs is not None or not isinstance(what, str | Path):
+            return exo.simulate(what, **arguments)
+        key = (str(what), case, repr(sorted(timed.items())), repr(sorted(more.items())))
+        if key not in runs:
+            runs[key] = exo.simulate(what, **arguments)
+        return runs[key]  # type: ignore[no-any-return]
 
     return run
 
@@ -127,7 +152,7 @@ class Item(pytest.Item):
     def runtest(self) -> None:
         from exo.requirements import PREFIX, results  # noqa: PLC0415
 
-        done = _experiment(self.config, self.scenario, (self.case,))
+        done = _experiment(self.config, self.scenario, self.case)
         wanted = f"{PREFIX}{self.name.split('[')[0]}/{self.case}"
         found = {
             result.id: result
@@ -169,29 +194,18 @@ def _scenario(name: str) -> "Scenario":
     return scenario.load(name)
 
 
-def _experiment(
-    config: pytest.Config,
-    scenario: "Scenario",
-    cases: tuple[str, ...],
-    *,
-    duration: float | None = None,
-    step: float | None = None,
-    settings: dict[str, Any] | None = None,
-) -> Any:
+def _experiment(config: pytest.Config, scenario: "Scenario", case: str) -> Any:
     from exo import experiment, loop  # noqa: PLC0415
     from exo.selection import narrowed  # noqa: PLC0415
 
     runs = config.stash.setdefault(RUNS, {})
-    given = {key: value for key, value in (("duration", duration), ("step", step)) if value is not None}
-    texts = {key: str(value) for key, value in (settings or {}).items()}
-    key = (scenario.model_dump_json(), cases, tuple(sorted(given.items())), tuple(sorted(texts.items())))
+    key = scenario.model_dump_json(), case
     if key not in runs:
         engine = config.getoption("--exo-engine")
         runs[key] = experiment.run(
-            scenario=narrowed(scenario, cases=cases, duration=duration, step=step),
+            scenario=narrowed(scenario, cases=[case]),
             fmu_dir=_fmu_dir(config),
-            overrides=texts,
-            given=given,
+            required=(),
             engine=loop.named(engine) if engine else loop.fastest(),
         )
     return runs[key]

@@ -3,8 +3,6 @@
 import math
 from collections.abc import Iterator, Mapping
 
-import numpy as np
-
 from exo.errors import ExoError, ScenarioError
 from exo.overrides import void
 from exo.recording import Recording
@@ -59,8 +57,3 @@ def _margin(shown: Shown, run: Recording, *, where: str) -> float:
         return formula.robustness(shown.formula, signals, step=run.step)
     except (ExoError, ValueError) as error:
         raise ScenarioError(f"{where}: {error}") from error
-
-
-def smallest(results: list[Result]) -> Result | None:
-    """The one with the smallest margin; one without a margin is smaller than all."""
-    return min(results, key=lambda one: -np.inf if math.isnan(one.value) else one.value, default=None)
