@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from exo.errors import ExoError
 
-INSTALL = 'tolerance bands need pyfunnel: pip install "./harness[pytest]"'
+INSTALL = "tolerance bands need pyfunnel: pip install pyfunnel"
 
 
 @dataclass(frozen=True)

@@ -17,7 +17,7 @@ def asammdf() -> Any:
     try:
         return import_module("asammdf")
     except ImportError:
-        raise ExoError('MDF4 needs the package asammdf, which is not installed: `pip install "exo[mdf]"`') from None
+        raise ExoError("MDF4 needs the package asammdf, which is not installed: `pip install asammdf`") from None
 
 
 def write(table: pa.Table, path: Path) -> None:

@@ -74,7 +74,7 @@ def _dask() -> Any:
     try:
         import distributed  # noqa: PLC0415
     except ImportError as error:
-        raise ExoError("--scheduler needs Dask: pip install 'exo[cluster]', or distributed") from error
+        raise ExoError("--scheduler needs Dask: expected `pip install distributed`") from error
     return distributed
 
 
