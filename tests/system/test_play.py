@@ -14,6 +14,7 @@ from typer.testing import CliRunner
 from exo import experiment as experiments
 from exo import loop, selection
 from exo.cli import app
+from exo.coupled import Coupled
 from exo.errors import ExoError
 from exo.play import bench as benches
 from exo.play import live as lives
@@ -300,3 +301,20 @@ def test_a_wrong_command_is_one_sentence_and_code_2(
     assert result.stderr.startswith("exo: ")
     assert said in result.stderr
     assert result.stderr.count("\n") == 1
+
+
+def test_a_machine_that_cannot_keep_up_says_so_and_how_fast_it_is(
+    fmu_dir: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    advance = Coupled.advance
+
+    def slowly(self: Coupled, **more: Any) -> None:
+        sleep(4 * lives.CHUNK_S)
+        advance(self, **more)
+
+    monkeypatch.setattr(Coupled, "advance", slowly)
+    with played("testbed", fmu_dir, clock=True) as live:
+        assert wait(live, lambda state: state.status == "slower than real time")
+        state = wait(live, lambda state: state.speed < 1.0)
+        assert state.speed < 0.3
+    monkeypatch.undo()
