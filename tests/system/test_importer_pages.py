@@ -24,10 +24,21 @@ WIRING = (PAGES / "wiring.md").read_text(encoding="utf-8")
 WORD = re.compile(r"`(\w+)\.([\w\[\].]+)`")
 
 
+@pytest.fixture(scope="module")
+def systems(fmu_dir: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The folder that `exo ssp` writes: a fresh clone's CI has none."""
+    folder = tmp_path_factory.mktemp("ssp")
+    done = command("ssp", "--fmu-dir", fmu_dir, "--out", folder)
+    assert done.exit_code == 0, done.output
+    return folder
+
+
 @pytest.fixture
-def place(tmp_path: Path) -> Path:
+def place(fmu_dir: Path, systems: Path, tmp_path: Path) -> Path:
     """A folder in which `target` is as the pages say."""
-    (tmp_path / "target").symlink_to(find_fmu_dir(None).parent)
+    (tmp_path / "target").mkdir()
+    (tmp_path / "target/fmu").symlink_to(fmu_dir)
+    (tmp_path / "target/ssp").symlink_to(systems)
     return tmp_path
 
 
