@@ -290,7 +290,9 @@ fn another_type<T, K: Kind>(name: &str, reference: ValueReference) -> Result<T, 
 
 /// The row that a value reference stands for in the interface of `K`, and its first element.
 #[inline]
-fn find<K: Kind, M: Model>(reference: ValueReference) -> Option<(&'static Variable<M>, usize)> {
+pub(crate) fn find<K: Kind, M: Model>(
+    reference: ValueReference,
+) -> Option<(&'static Variable<M>, usize)> {
     M::DESCRIPTION
         .find(reference)
         .filter(|&(_, element)| K::SCALAR || element == 0)

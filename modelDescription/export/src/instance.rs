@@ -6,6 +6,7 @@ use crate::legality::{Interface, Phase};
 use crate::log::{self, Category, Enabled, Log, Sink};
 use crate::model::Model;
 use crate::outputs::Outputs;
+use crate::routes::Routes;
 use crate::slots::Slots;
 use crate::snapshot::Snapshot;
 use crate::stop::StopTime;
@@ -26,6 +27,7 @@ pub struct Instance<M: Model> {
     pub(crate) stale: bool,
     outputs: Outputs<M>,
     pub(crate) slots: Slots<M>,
+    pub(crate) routes: Routes<M>,
     /// Strings handed to the importer, alive until its next call.
     pub(crate) strings: Vec<CString>,
     /// Binaries handed to the importer, alive until its next call.
@@ -57,6 +59,7 @@ impl<M: Model> Instance<M> {
             stale: false,
             outputs: Outputs::new(),
             slots: Slots::new(),
+            routes: Routes::default(),
             strings: Vec::new(),
             binaries: Vec::new(),
         };

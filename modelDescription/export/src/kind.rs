@@ -3,6 +3,7 @@
 //! FMI 2.0 has a value reference for each scalar, FMI 3.0 one for each row, which is that of its first element.
 
 use crate::access::Value;
+use crate::routes::{Both, Routes};
 use crate::slots::At;
 use fmu_declaration::{Access, Place, Variable};
 
@@ -32,6 +33,16 @@ pub trait Kind {
 
     /// A time (s) as a value, if this is the type for times.
     fn of_time(_: f64) -> Option<Self::Value> {
+        None
+    }
+
+    /// The lists of this type that are known; none where none are remembered.
+    fn routes<M>(_: &Routes<M>) -> Option<&Both<M, Self::Value>> {
+        None
+    }
+
+    /// The same, to learn more.
+    fn routes_mut<M>(_: &mut Routes<M>) -> Option<&mut Both<M, Self::Value>> {
         None
     }
 
@@ -76,7 +87,7 @@ pub trait Number: Kind {
 }
 
 macro_rules! kind {
-    ($(#[$doc:meta])* $name:ident, $standard:expr, scalar $scalar:literal, $value:ty, $row:pat $(if $guard:expr)? => $at:expr $(, in $slot:ident)? $(; $of_time:item)?) => {
+    ($(#[$doc:meta])* $name:ident, $standard:expr, scalar $scalar:literal, $value:ty, $row:pat $(if $guard:expr)? => $at:expr $(, in $slot:ident)? $(, by $routes:ident)? $(; $of_time:item)?) => {
         $(#[$doc])*
         #[derive(Clone, Copy, Debug)]
         pub struct $name;
@@ -101,6 +112,18 @@ macro_rules! kind {
                         At::$slot(at) => Some(at),
                         _ => None,
                     }
+                }
+            )?
+
+            $(
+                #[inline]
+                fn routes<M>(routes: &Routes<M>) -> Option<&Both<M, $value>> {
+                    Some(&routes.$routes)
+                }
+
+                #[inline]
+                fn routes_mut<M>(routes: &mut Routes<M>) -> Option<&mut Both<M, $value>> {
+                    Some(&mut routes.$routes)
                 }
             )?
 
@@ -130,11 +153,11 @@ macro_rules! number {
 /// The types of FMI 2.0. An enumeration's items are Integers, and single precision is Real.
 #[rustfmt::skip]
 pub mod fmi2 {
-    use super::{Access, At, Kind, Number, Place};
+    use super::{Access, At, Both, Kind, Number, Place, Routes};
 
-    kind! { /** fmi2Real */ Real, "Real", scalar true, f64, Access::Real { at, .. } => *at, in Real }
-    kind! { /** fmi2Integer */ Integer, "Integer", scalar true, i32, Access::Integer { at, .. } | Access::Enumeration { at, .. } => *at, in Whole }
-    kind! { /** fmi2Boolean */ Boolean, "Boolean", scalar true, bool, Access::Boolean { at } => *at, in Flag }
+    kind! { /** fmi2Real */ Real, "Real", scalar true, f64, Access::Real { at, .. } => *at, in Real, by reals }
+    kind! { /** fmi2Integer */ Integer, "Integer", scalar true, i32, Access::Integer { at, .. } | Access::Enumeration { at, .. } => *at, in Whole, by wholes }
+    kind! { /** fmi2Boolean */ Boolean, "Boolean", scalar true, bool, Access::Boolean { at } => *at, in Flag, by flags }
     kind! { /** fmi2String */ Text, "String", scalar true, String, Access::String { at } => *at }
 
     number! {
@@ -146,15 +169,15 @@ pub mod fmi2 {
 /// The types of FMI 3.0. An enumeration's items are Int64.
 #[rustfmt::skip]
 pub mod fmi3 {
-    use super::{Access, Kind, Number, Place};
+    use super::{Access, Both, Kind, Number, Place, Routes};
     use fmu_declaration::IntegerType;
 
     kind! {
-        /** fmi3Float64 */ Float64, "Float64", scalar false, f64, Access::Real { at, .. } if !at.is_single() => *at;
+        /** fmi3Float64 */ Float64, "Float64", scalar false, f64, Access::Real { at, .. } if !at.is_single() => *at, by reals;
         fn of_time(time: f64) -> Option<f64> { Some(time) }
     }
     kind! { /** fmi3Float32 */ Float32, "Float32", scalar false, f64, Access::Real { at, .. } if at.is_single() => *at }
-    kind! { /** fmi3Boolean */ Boolean, "Boolean", scalar false, bool, Access::Boolean { at } => *at }
+    kind! { /** fmi3Boolean */ Boolean, "Boolean", scalar false, bool, Access::Boolean { at } => *at, by flags }
     kind! { /** fmi3String */ Text, "String", scalar false, String, Access::String { at } => *at }
     kind! { /** fmi3Binary */ Binary, "Binary", scalar false, Vec<u8>, Access::Binary { at, .. } => *at }
 

@@ -3,11 +3,12 @@
 
 use crate::access::Value as _;
 use crate::model::Model;
+use fmu_declaration::place::Finite;
 use fmu_declaration::{Access, Place, Variable};
 
-/// The Reals that a model computes, in runs that can be looked through without a look at their rows, and its Binaries.
+/// What is looked at of the values that a model computes: its Reals, found once and not row by row, and its Binaries.
 pub(crate) struct Outputs<M: Model> {
-    finite: Vec<Place<M, f64>>,
+    finite: Finite<M>,
     may_be_nan: Vec<Place<M, f64>>,
     binaries: Vec<&'static Variable<M>>,
 }
@@ -16,8 +17,8 @@ impl<M: Model> Outputs<M> {
     /// Those of the model's rows.
     pub(crate) fn new() -> Self {
         Self {
-            finite: runs(false),
-            may_be_nan: runs(true),
+            finite: Finite::new(reals(false)),
+            may_be_nan: reals(true).collect(),
             binaries: M::DESCRIPTION
                 .variables
                 .iter()
@@ -30,10 +31,10 @@ impl<M: Model> Outputs<M> {
     ///
     /// # Errors
     /// The first that may not, with its name and unit.
+    #[inline]
     pub(crate) fn check(&self, model: &M) -> Result<(), String> {
-        let finite = self.finite.iter().all(|run| run.are_finite(model));
-        let mut readings = self.may_be_nan.iter().flat_map(|run| run.values(model));
-        if !finite || readings.any(f64::is_infinite) {
+        let mut readings = self.may_be_nan.iter().flat_map(|place| place.values(model));
+        if !self.finite.is_met(model) || readings.any(f64::is_infinite) {
             return Err(refused(model));
         }
         let objection = |row: &&Variable<M>| {
@@ -46,29 +47,16 @@ impl<M: Model> Outputs<M> {
     }
 }
 
-/// The places of the calculated Reals that may be NaN, or of the others; adjoining ones as one.
-fn runs<M: Model>(may_be_nan: bool) -> Vec<Place<M, f64>> {
-    let mut places: Vec<Place<M, f64>> = M::DESCRIPTION
+/// The places of the calculated Reals that may be NaN, or of the others.
+fn reals<M: Model>(may_be_nan: bool) -> impl Iterator<Item = Place<M, f64>> {
+    M::DESCRIPTION
         .variables
         .iter()
-        .filter(|row| row.is_calculated() && row.may_be_nan == may_be_nan)
+        .filter(move |row| row.is_calculated() && row.may_be_nan == may_be_nan)
         .filter_map(|row| match row.access {
             Access::Real { at, .. } => Some(at),
             _ => None,
         })
-        .collect();
-    places.sort_by_key(|place| place.layout().0);
-    let mut runs: Vec<Place<M, f64>> = Vec::new();
-    for place in places {
-        match runs
-            .last_mut()
-            .and_then(|run| Some((run.followed_by(&place)?, run)))
-        {
-            Some((both, run)) => *run = both,
-            None => runs.push(place),
-        }
-    }
-    runs
 }
 
 /// What is wrong with a model's outputs.

@@ -9,7 +9,7 @@ use crate::kind::Kind;
 use crate::legality::Phase;
 use crate::model::Model;
 use fmu_declaration::description::SCALARS_PER_ROW;
-use fmu_declaration::{Access, Causality, IntegerType, Place};
+use fmu_declaration::{Access, Causality, IntegerType, Place, Variable};
 
 /// Rows with a number beyond this have no slot.
 const MOST: u32 = 4096;
@@ -29,7 +29,7 @@ pub enum At<M> {
 /// A row.
 pub(crate) struct Slot<M> {
     at: At<M>,
-    /// What a Real may be set to at any time: an input's range, finite. Else low > high.
+    /// its [`interval`]; low > high where it has none
     low: f64,
     high: f64,
 }
@@ -54,6 +54,20 @@ impl<M> Slot<M> {
     }
 }
 
+/// What a row may be set to at any time (a number of its type), whatever else holds: an input's range, finite. None where its
+/// row has to say: of another causality, or of a type that is smaller than its value.
+pub(crate) fn interval<M>(row: &Variable<M>) -> Option<(f64, f64)> {
+    let (low, high) = match &row.access {
+        Access::Real { at, range, .. } if !at.is_single() => (range.low, range.high),
+        Access::Integer { at, min, max } if at.integer_type() == IntegerType::Int32 => {
+            ((*min).into(), (*max).into())
+        }
+        Access::Boolean { .. } => (0.0, 1.0),
+        _ => return None,
+    };
+    (row.causality == Causality::Input).then_some((low.max(f64::MIN), high.min(f64::MAX)))
+}
+
 impl<M: Model> Slots<M> {
     /// Those of the model's rows.
     pub fn new() -> Self {
@@ -63,32 +77,18 @@ impl<M: Model> Slots<M> {
             if scalar.element > 0 || number > MOST {
                 continue;
             }
-            let (at, low, high) = match row.access {
-                // What a smaller type does not hold is refused by the row, with its name.
-                Access::Real { at, .. } if at.is_single() => (At::Real(at), 1.0, 0.0),
-                Access::Integer { at, .. } if at.integer_type() != IntegerType::Int32 => {
-                    (At::Whole(at), 1.0, 0.0)
-                }
-                Access::Real { at, range, .. } => (At::Real(at), range.low, range.high),
-                Access::Integer { at, min, max } => (At::Whole(at), min.into(), max.into()),
-                Access::Enumeration { at, .. } => (At::Whole(at), 1.0, 0.0),
-                Access::Boolean { at } => (At::Flag(at), 0.0, 1.0),
+            let at = match row.access {
+                Access::Real { at, .. } => At::Real(at),
+                Access::Integer { at, .. } | Access::Enumeration { at, .. } => At::Whole(at),
+                Access::Boolean { at } => At::Flag(at),
                 Access::String { .. } | Access::Wide { .. } | Access::Binary { .. } => continue,
             };
-            let is_input = row.causality == Causality::Input;
+            let (low, high) = interval(row).unwrap_or((f64::INFINITY, f64::NEG_INFINITY));
             let place = number as usize;
             if slots.len() <= place {
                 slots.resize_with(place + 1, || Slot::NOTHING);
             }
-            slots[place] = Slot {
-                at,
-                low: if is_input {
-                    low.max(f64::MIN)
-                } else {
-                    f64::INFINITY
-                },
-                high: high.min(f64::MAX),
-            };
+            slots[place] = Slot { at, low, high };
         }
         Self(slots.into())
     }

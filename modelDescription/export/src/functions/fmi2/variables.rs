@@ -24,7 +24,7 @@ pub unsafe fn get<M: Model, K: Number>(
         guard::<M, _>(c, function, |instance| {
             let references = known(array(references, n), "vr")?;
             let values = known(array_mut(values, n), "value")?;
-            instance.get::<K>(references, |i, value| values[i] = K::give(value))
+            instance.get_all::<K, _>(references, values, K::give)
         })
     }
 }
@@ -42,7 +42,7 @@ pub unsafe fn set<M: Model, K: Number>(
         guard::<M, _>(c, function, |instance| {
             let references = known(array(references, n), "vr")?;
             let values = known(array(values, n), "value")?;
-            instance.set::<K, Infallible>(references, |i| Ok(K::take(values[i])))
+            instance.set_all::<K, _, Infallible>(references, values, |value| Ok(K::take(value)))
         })
     }
 }
@@ -59,7 +59,7 @@ pub unsafe fn get_boolean<M: Model>(
         guard::<M, _>(c, F::fmi2GetBoolean, |instance| {
             let references = known(array(references, n), "vr")?;
             let values = known(array_mut(values, n), "value")?;
-            instance.get::<kind::Boolean>(references, |i, value| values[i] = value.into())
+            instance.get_all::<kind::Boolean, _>(references, values, Boolean::from)
         })
     }
 }
@@ -76,7 +76,7 @@ pub unsafe fn set_boolean<M: Model>(
         guard::<M, _>(c, F::fmi2SetBoolean, |instance| {
             let references = known(array(references, n), "vr")?;
             let values = known(array(values, n), "value")?;
-            instance.set::<kind::Boolean, _>(references, |i| boolean(values[i]))
+            instance.set_all::<kind::Boolean, _, _>(references, values, boolean)
         })
     }
 }

@@ -25,6 +25,9 @@ unsafe fn references<'a, M: Model, K: Kind>(
 ) -> Result<&'a [ValueReference], Failure> {
     // SAFETY: this function's contract.
     let references = known(unsafe { array(references, n) }, "valueReferences")?;
+    if instance.is_known::<K>(references, n_values) {
+        return Ok(references);
+    }
     let count = instance.count::<K>(references)?;
     if n_values != count {
         return refused(format!(
@@ -48,7 +51,7 @@ pub unsafe fn get<M: Model, K: Number>(
         guard::<M, _>(c, function, |instance| {
             let vr = references::<M, K>(instance, vr, n, n_values)?;
             let values = known(array_mut(values, n_values), "values")?;
-            instance.get::<K>(vr, |i, value| values[i] = K::give(value))
+            instance.get_all::<K, _>(vr, values, K::give)
         })
     }
 }
@@ -67,7 +70,7 @@ pub unsafe fn set<M: Model, K: Number>(
         guard::<M, _>(c, function, |instance| {
             let vr = references::<M, K>(instance, vr, n, n_values)?;
             let values = known(array(values, n_values), "values")?;
-            instance.set::<K, Infallible>(vr, |i| Ok(K::take(values[i])))
+            instance.set_all::<K, _, Infallible>(vr, values, |value| Ok(K::take(value)))
         })
     }
 }
@@ -85,7 +88,7 @@ pub unsafe fn get_boolean<M: Model>(
         guard::<M, _>(c, F::fmi3GetBoolean, |instance| {
             let vr = references::<M, kind::Boolean>(instance, vr, n, n_values)?;
             let values = known(array_mut(values, n_values), "values")?;
-            instance.get::<kind::Boolean>(vr, |i, value| values[i] = value.into())
+            instance.get_all::<kind::Boolean, _>(vr, values, Boolean::from)
         })
     }
 }
@@ -103,7 +106,7 @@ pub unsafe fn set_boolean<M: Model>(
         guard::<M, _>(c, F::fmi3SetBoolean, |instance| {
             let vr = references::<M, kind::Boolean>(instance, vr, n, n_values)?;
             let values = known(array(values, n_values), "values")?;
-            instance.set::<kind::Boolean, _>(vr, |i| boolean(values[i].into()))
+            instance.set_all::<kind::Boolean, _, _>(vr, values, |value| boolean(value.into()))
         })
     }
 }

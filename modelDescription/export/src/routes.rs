@@ -1,0 +1,263 @@
+//! Where lists of value references lead. A loop over FMUs asks for the same list at every step; it is looked up once, and
+//! then compared only.
+//!
+//! A list that leads nowhere, or to a value that is refused, goes the long way by slots and rows, which say why.
+
+use crate::access::{NoValue, Value as _, find};
+use crate::failure::Outcome;
+use crate::instance::Instance;
+use crate::kind::Kind;
+use crate::legality::Phase;
+use crate::model::Model;
+use crate::slots::interval;
+use fmu_declaration::Variable;
+use fmu_declaration::place::Point;
+
+/// Lists of each type and direction that are known at a time: an importer has one for each connection, or one for all.
+const LISTS: usize = 4;
+
+/// Values from which on a list is worth it: fewer are found as fast one by one.
+const LEAST: usize = 3;
+
+/// Unknown lists that are let pass, after one that leads nowhere, and before a known one makes room for another.
+const PATIENCE: u32 = 64;
+
+/// All that are known.
+pub struct Routes<M> {
+    /// Of fmi2Real, fmi3Float64.
+    pub reals: Both<M, f64>,
+    /// Of fmi2Integer.
+    pub wholes: Both<M, i32>,
+    /// Of fmi2Boolean, fmi3Boolean.
+    pub flags: Both<M, bool>,
+}
+
+/// Those of one type.
+pub struct Both<M, V> {
+    gets: Known<Point<M, V>>,
+    sets: Known<Settable<M, V>>,
+}
+
+/// An input, and what it may be set to (a number of its type).
+pub struct Settable<M, V> {
+    at: Point<M, V>,
+    low: f64,
+    high: f64,
+}
+
+/// The lists that are known, with what they lead to.
+struct Known<P> {
+    lists: Vec<(Box<[u32]>, Box<[P]>)>,
+    /// unknown ones to be let pass
+    patience: u32,
+    /// the next one to make room
+    oldest: usize,
+}
+
+impl<P> Default for Known<P> {
+    fn default() -> Self {
+        Self {
+            lists: Vec::new(),
+            patience: 0,
+            oldest: 0,
+        }
+    }
+}
+
+impl<M, V> Default for Both<M, V> {
+    fn default() -> Self {
+        Self {
+            gets: Known::default(),
+            sets: Known::default(),
+        }
+    }
+}
+
+impl<M> Default for Routes<M> {
+    fn default() -> Self {
+        Self {
+            reals: Both::default(),
+            wholes: Both::default(),
+            flags: Both::default(),
+        }
+    }
+}
+
+impl<P> Known<P> {
+    /// What a list of `n` values leads to.
+    #[inline]
+    fn find(&self, references: &[u32], n: usize) -> Option<&[P]> {
+        let known =
+            |(list, points): &&(Box<[u32]>, Box<[P]>)| points.len() == n && **list == *references;
+        self.lists.iter().find(known).map(|(_, points)| &**points)
+    }
+
+    /// Remembers a list, if it leads anywhere.
+    #[cold]
+    fn learn(&mut self, references: &[u32], lead: impl FnOnce() -> Option<Box<[P]>>) {
+        if self.patience > 0 {
+            self.patience -= 1;
+            return;
+        }
+        let Some(points) = lead() else {
+            self.patience = PATIENCE;
+            return;
+        };
+        let list = (references.into(), points);
+        if self.lists.len() < LISTS {
+            self.lists.push(list);
+        } else {
+            self.lists[self.oldest] = list;
+            self.oldest = (self.oldest + 1) % LISTS;
+        }
+        if self.lists.len() == LISTS {
+            self.patience = PATIENCE;
+        }
+    }
+}
+
+/// What `of` makes of each value of a list, if it makes something of all.
+fn lead<K: Kind, M: Model, P>(
+    references: &[u32],
+    of: impl Fn(&'static Variable<M>, Point<M, K::Value>) -> Option<P>,
+) -> Option<Box<[P]>> {
+    let mut points = Vec::new();
+    for &reference in references {
+        let (row, element) = find::<K, M>(reference)?;
+        let at = K::at(&row.access)?;
+        let missing = K::visit(row, element, 0, |element, _| {
+            match of(row, at.point(element)) {
+                Some(point) => {
+                    points.push(point);
+                    None
+                }
+                None => Some(()),
+            }
+        });
+        if missing.is_some() {
+            return None;
+        }
+    }
+    Some(points.into())
+}
+
+impl<M: Model> Instance<M> {
+    /// The functions that get numbers and Booleans: gives each of the `values`, in the order of the references.
+    pub(crate) fn get_all<K: Kind, C>(
+        &mut self,
+        references: &[u32],
+        values: &mut [C],
+        give: impl Fn(K::Value) -> C + Copy,
+    ) -> Outcome {
+        if self.get_by_route::<K, C>(references, values, give) {
+            return Ok(());
+        }
+        self.get::<K>(references, |i, value| values[i] = give(value))?;
+        self.learn_get::<K>(references, values.len());
+        Ok(())
+    }
+
+    /// The functions that set numbers and Booleans; `take` says what one of the `values` is, or why it is none.
+    pub(crate) fn set_all<K: Kind, C: Copy, E: NoValue>(
+        &mut self,
+        references: &[u32],
+        values: &[C],
+        take: impl Fn(C) -> Result<K::Value, E> + Copy,
+    ) -> Outcome {
+        if self.set_by_route::<K, C, E>(references, values, take) {
+            return Ok(());
+        }
+        self.set::<K, E>(references, |i| take(values[i]))?;
+        self.learn_set::<K>(references, values.len());
+        Ok(())
+    }
+
+    /// Whether a list is known, with so many values.
+    #[inline]
+    pub(crate) fn is_known<K: Kind>(&self, references: &[u32], n: usize) -> bool {
+        K::routes(&self.routes).is_some_and(|Both { gets, sets }| {
+            gets.find(references, n).is_some() || sets.find(references, n).is_some()
+        })
+    }
+
+    /// Gives all `values` by a known list; whether there is one.
+    #[inline]
+    fn get_by_route<K: Kind, C>(
+        &self,
+        references: &[u32],
+        values: &mut [C],
+        give: impl Fn(K::Value) -> C,
+    ) -> bool {
+        // In Initialization Mode the model is computed first.
+        let is_shown = self.now.phase != Phase::InitializationMode;
+        let Some(both) = K::routes(&self.routes).filter(|_| is_shown) else {
+            return false;
+        };
+        let Some(points) = both.gets.find(references, values.len()) else {
+            return false;
+        };
+        for (value, point) in values.iter_mut().zip(points) {
+            *value = give(point.get(&self.now.model));
+        }
+        true
+    }
+
+    /// Sets inputs by a known list, if there is one and all `values` will do; else nothing.
+    #[inline]
+    fn set_by_route<K: Kind, C: Copy, E>(
+        &mut self,
+        references: &[u32],
+        values: &[C],
+        take: impl Fn(C) -> Result<K::Value, E>,
+    ) -> bool {
+        let Some(both) = K::routes(&self.routes) else {
+            return false;
+        };
+        let Some(points) = both.sets.find(references, values.len()) else {
+            return false;
+        };
+        let takes = |(point, &value): (&Settable<M, K::Value>, &C)| {
+            let number = take(value).ok().and_then(|value| value.number());
+            number.is_some_and(|number| point.low <= number && number <= point.high)
+        };
+        if !points.iter().zip(values).all(takes) {
+            return false;
+        }
+        for (point, &value) in points.iter().zip(values) {
+            if let Ok(value) = take(value) {
+                point.at.set(&mut self.now.model, value);
+            }
+        }
+        self.stale |= self.now.phase == Phase::InitializationMode;
+        true
+    }
+
+    /// Remembers a list of which all was got. While it runs only: what is asked for before is asked for once.
+    #[inline]
+    fn learn_get<K: Kind>(&mut self, references: &[u32], n: usize) {
+        if n < LEAST || self.now.phase != Phase::StepComplete {
+            return;
+        }
+        if let Some(both) = K::routes_mut(&mut self.routes) {
+            let points = || lead::<K, M, _>(references, |_, point| Some(point));
+            both.gets.learn(references, points);
+        }
+    }
+
+    /// Remembers a list of which all was set, if it has inputs only.
+    #[inline]
+    fn learn_set<K: Kind>(&mut self, references: &[u32], n: usize) {
+        if n < LEAST || self.now.phase != Phase::StepComplete {
+            return;
+        }
+        if let Some(both) = K::routes_mut(&mut self.routes) {
+            let points = || {
+                lead::<K, M, _>(references, |row, at| {
+                    let (low, high) = interval(row)?;
+                    Some(Settable { at, low, high })
+                })
+            };
+            both.sets.learn(references, points);
+        }
+    }
+}
