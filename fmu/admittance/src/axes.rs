@@ -264,12 +264,8 @@ impl<const N: usize> Drivable<N> for Axes<N> {
 
 /// One of something for each axis, from 0.
 #[inline]
-fn each<T: Copy + Default, const N: usize>(mut of: impl FnMut(usize) -> T) -> [T; N] {
-    let mut all = [T::default(); N];
-    for (i, one) in all.iter_mut().enumerate() {
-        *one = of(i);
-    }
-    all
+fn each<T, const N: usize>(of: impl FnMut(usize) -> T) -> [T; N] {
+    core::array::from_fn(of)
 }
 
 /// The sum of something over N axes, from 0.

@@ -67,13 +67,14 @@ impl<const N: usize> Ledger<N> {
         sensed: &mut L::Sensed,
         q: &SVector<Real, N>,
     ) -> Settlement<N> {
-        let mut H = law.stored(sensed);
-        if self.terms.kept && !(self.created(H, q) <= self.tank) {
+        let H = law.stored(sensed);
+        let created = self.created(H, q);
+        if self.terms.kept && !(created <= self.tank) {
             let keep = self.affordable(law.springs(sensed), law.masses(sensed), q);
             law.reduce(sensed, keep);
-            H = law.stored(sensed);
+            return self.close(law.stored(sensed), q);
         }
-        self.close(H, q)
+        self.closed(H, q, created)
     }
 
     /// What may be kept at this tick, with the position `q` (m), of the energy that the law stores in its springs and in its
@@ -103,13 +104,18 @@ impl<const N: usize> Ledger<N> {
     /// given up.
     #[inline]
     pub fn close(&self, H: Real, q: &SVector<Real, N>) -> Settlement<N> {
+        self.closed(H, q, self.created(H, q))
+    }
+
+    /// The same where it is known what the sample `created`, J.
+    #[inline]
+    fn closed(&self, H: Real, q: &SVector<Real, N>, created: Real) -> Settlement<N> {
         let step = self.q.as_ref().map(|last| q - last);
         let reach = &self.terms.reach;
         let outside = step.is_some_and(|step| reach.is_left(&step, self.step.as_ref()));
         if !self.terms.defined {
             return self.unpaid(step, outside);
         }
-        let created = self.created(H, q);
         self.paid(step, outside, H, created, || self.size(H, q))
     }
 

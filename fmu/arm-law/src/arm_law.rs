@@ -226,11 +226,7 @@ impl ArmLaw {
         inputs: &ArmInputs,
         outputs: &mut ArmOutputs,
     ) -> Result<(), NotFinite> {
-        let mut ran = Ran {
-            encoder: believed.fault,
-            after,
-            ..Ran::default()
-        };
+        let mut ran = Ran::nothing(after, believed.fault);
         let q = believed.q.map(|q| self.counted(&q, inputs)).transpose()?;
         if self.supervisor.is_some() {
             self.supervised(inputs, q.as_ref(), believed.doubted, &mut ran);
@@ -333,9 +329,9 @@ impl ArmLaw {
     }
 
     /// What the hand does, with the pose in `ran` and joint angles `q` (rad): into `ran` in the base frame. What the
-    /// sensor's conditioning is to remember of it is returned.
+    /// sensor's conditioning is to remember of it is written into `made`.
     #[inline]
-    fn sensed(&self, q: &Vector3<Real>, inputs: &ArmInputs, ran: &mut Ran) -> Made {
+    fn sensed(&self, q: &Vector3<Real>, inputs: &ArmInputs, ran: &mut Ran, made: &mut Made) {
         let turn = self.frame.at(&ran.pose);
         let reading = Reading {
             wrench: &self.wrench(inputs),
@@ -343,7 +339,7 @@ impl ArmLaw {
             tare: inputs.ft_tare != 0,
         };
         let (R, absolute) = (|| turn.R(), || self.absolute(q));
-        let (made, hand) = self.conditioner.sampled(&reading, R, absolute);
+        let hand = self.conditioner.sampled(&reading, R, absolute, made);
         ran.ft = Conditioned {
             hand: Wrench {
                 force: turn.in_base(&hand.hand.force),
@@ -351,7 +347,6 @@ impl ArmLaw {
             },
             ..hand
         };
-        made
     }
 
     /// What the hand's force sensor reads when nothing acts on it, as far as a tare has found it; sensor frame.

@@ -43,18 +43,19 @@ pub struct Pose {
     pub sin_cos: SinCos,
 }
 
-impl Default for Pose {
-    /// Nowhere yet.
-    fn default() -> Self {
-        Self {
-            p: Vector3::zeros(),
-            J: Matrix3::zeros(),
-            sigma_min: 0.0,
-            R: Matrix3::zeros(),
-            sin_cos: Default::default(),
-        }
-    }
+impl Pose {
+    /// Nowhere yet. A constant, as `zeros` of a matrix is made elsewhere and then moved: at every tick.
+    pub(crate) const NOWHERE: Self = Self {
+        p: Vector3::new(0.0, 0.0, 0.0),
+        J: ZERO,
+        sigma_min: 0.0,
+        R: ZERO,
+        sin_cos: [(0.0, 0.0); 3],
+    };
 }
+
+/// Nine zeros.
+pub(crate) const ZERO: Matrix3<Real> = Matrix3::new(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
 
 /// How joint angles and the distance from the yaw axis change with the handle's position.
 #[derive(Clone, Copy, Debug, PartialEq)]

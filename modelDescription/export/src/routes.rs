@@ -47,11 +47,17 @@ pub struct Settable<M, V> {
 
 /// The lists that are known, with what they lead to.
 struct Known<P> {
-    lists: Vec<(Box<[u32]>, Box<[P]>)>,
+    lists: Vec<List<P>>,
     /// unknown ones to be let pass
     patience: u32,
     /// the next one to make room
     oldest: usize,
+}
+
+/// A list, and where each of its values is.
+struct List<P> {
+    references: Box<[u32]>,
+    points: Box<[P]>,
 }
 
 impl<P> Default for Known<P> {
@@ -87,9 +93,8 @@ impl<P> Known<P> {
     /// What a list of `n` values leads to.
     #[inline]
     fn find(&self, references: &[u32], n: usize) -> Option<&[P]> {
-        let known =
-            |(list, points): &&(Box<[u32]>, Box<[P]>)| points.len() == n && **list == *references;
-        self.lists.iter().find(known).map(|(_, points)| &**points)
+        let known = |list: &&List<P>| list.points.len() == n && *list.references == *references;
+        self.lists.iter().find(known).map(|list| &*list.points)
     }
 
     /// Remembers a list, if it leads anywhere.
@@ -103,7 +108,10 @@ impl<P> Known<P> {
             self.patience = PATIENCE;
             return;
         };
-        let list = (references.into(), points);
+        let list = List {
+            references: references.into(),
+            points,
+        };
         if self.lists.len() < LISTS {
             self.lists.push(list);
         } else {
@@ -152,6 +160,17 @@ impl<M: Model> Instance<M> {
         if self.get_by_route::<K, C>(references, values, give) {
             return Ok(());
         }
+        self.get_unknown::<K, C>(references, values, give)
+    }
+
+    /// Apart, so that the frame of a known list is small.
+    #[inline(never)]
+    fn get_unknown<K: Kind, C>(
+        &mut self,
+        references: &[u32],
+        values: &mut [C],
+        give: impl Fn(K::Value) -> C,
+    ) -> Outcome {
         self.get::<K>(references, |i, value| values[i] = give(value))?;
         self.learn_get::<K>(references, values.len());
         Ok(())
@@ -167,6 +186,17 @@ impl<M: Model> Instance<M> {
         if self.set_by_route::<K, C, E>(references, values, take) {
             return Ok(());
         }
+        self.set_unknown::<K, C, E>(references, values, take)
+    }
+
+    /// Apart, as for Get.
+    #[inline(never)]
+    fn set_unknown<K: Kind, C: Copy, E: NoValue>(
+        &mut self,
+        references: &[u32],
+        values: &[C],
+        take: impl Fn(C) -> Result<K::Value, E>,
+    ) -> Outcome {
         self.set::<K, E>(references, |i| take(values[i]))?;
         self.learn_set::<K>(references, values.len());
         Ok(())
@@ -261,3 +291,7 @@ impl<M: Model> Instance<M> {
         }
     }
 }
+
+#[cfg(test)]
+#[path = "routes/tests.rs"]
+mod tests;

@@ -4,6 +4,7 @@ use super::{ArmLaw, NotFinite, Ran};
 use crate::signals::ArmInputs;
 use crate::supervision::{self, Demand, Felt, Report, Status};
 use crate::wrench::TareState;
+use crate::wrench::conditioner::Made;
 use admittance::{Real, encoder};
 use nalgebra::Vector3;
 
@@ -27,7 +28,8 @@ impl ArmLaw {
             },
         };
         self.turn(&mut ran.pose, q);
-        let made = self.sensed(q, inputs, ran);
+        let mut made = Made::default();
+        self.sensed(q, inputs, ran, &mut made);
         self.run(q, demand, ran)?;
         self.conditioner.keep(&made);
         ran.outcome.outside_bounds |= doubted;
@@ -43,7 +45,8 @@ impl ArmLaw {
         }
         let last = self.q;
         self.turn(&mut ran.pose, &last);
-        let made = self.sensed(&last, inputs, ran);
+        let mut made = Made::default();
+        self.sensed(&last, inputs, ran, &mut made);
         self.abandon(ran);
         self.conditioner.keep(&made);
         Ok(())
@@ -61,7 +64,8 @@ impl ArmLaw {
         let is_seen = q.is_some() && (doubted || ran.encoder.is_none());
         let q = q.map_or(self.q, |q| *q);
         self.turn(&mut ran.pose, &q);
-        let made = self.sensed(&q, inputs, ran);
+        let mut made = Made::default();
+        self.sensed(&q, inputs, ran, &mut made);
         let felt = if self.watches_drift() {
             self.felt(inputs, ran)
         } else {

@@ -3,13 +3,13 @@
 use super::{ArmLaw, HandleTick};
 use crate::choices::DEBT;
 use crate::joint_space::Nominal;
-use crate::kinematics::Pose;
+use crate::kinematics::{Pose, ZERO};
 use crate::signals::ArmOutputs;
 use crate::stiff_hand::StiffHandSeen;
 use crate::supervision::{Demand, State, Status};
 use crate::wrench::{Conditioned, Fault, TareFailure};
 use admittance::{Real, encoder};
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Vector3;
 
 /// What came of a tick, before it is shown.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -34,19 +34,20 @@ pub(super) struct Ran {
     pub(super) status: Status,
 }
 
-impl Default for Ran {
-    /// Nothing yet.
-    fn default() -> Self {
+impl Ran {
+    /// Nothing yet, with joint angles read `after` sample periods after those before, with which something may be wrong.
+    #[inline]
+    pub(super) fn nothing(after: Real, encoder: Option<encoder::Fault>) -> Self {
         let zeros = Vector3::zeros();
         Self {
-            pose: Pose::default(),
+            pose: Pose::NOWHERE,
             outcome: HandleTick::at_rest(&zeros, false),
-            nominal: Nominal::at(&zeros, Matrix3::zeros()),
+            nominal: Nominal::at(&zeros, ZERO),
             slowed: false,
             stiff_hand: StiffHandSeen::default(),
             ft: Conditioned::default(),
-            after: 1.0,
-            encoder: None,
+            after,
+            encoder,
             status: Status::of(Demand::Rest),
         }
     }

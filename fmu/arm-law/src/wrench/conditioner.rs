@@ -115,8 +115,9 @@ pub(crate) struct Reading<'a> {
     pub tare: bool,
 }
 
-/// What is to be remembered of a sample.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// What is to be remembered of a sample; by default nothing. Much of it is seldom there: it is written where it stays, and
+/// not handed on.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Made {
     seen: Seen,
     requested: bool,
@@ -168,54 +169,52 @@ impl Conditioner {
             valid: sample.valid,
             tare: sample.tare,
         };
-        let (made, hand) = self.sampled(&reading, || sample.R, || sample.q);
+        let mut made = Made::default();
+        let hand = self.sampled(&reading, || sample.R, || sample.q, &mut made);
         self.keep(&made);
         hand
     }
 
-    /// What is made of a `reading`, and what is to be remembered of it once it is [kept](Self::keep). The sensor's orientation
-    /// `R` and the joint angles `q` (rad) are asked for where they matter.
+    /// What is made of a `reading`; what is to be remembered of it, once it is [kept](Self::keep), is written into `made`, which
+    /// is the default. The sensor's orientation `R` and the joint angles `q` (rad) are asked for where they matter.
     #[inline]
     pub(crate) fn sampled(
         &self,
         reading: &Reading<'_>,
         R: impl FnOnce() -> Matrix3<Real>,
         q: impl FnOnce() -> Vector3<Real>,
-    ) -> (Made, Conditioned) {
-        let seen = self.validity.sampled(reading.wrench, reading.valid);
-        let mut fault = seen.fault();
+        made: &mut Made,
+    ) -> Conditioned {
+        let (validity, tare) = (&self.validity, &self.tare);
+        validity.sampled(reading.wrench, reading.valid, &mut made.seen);
+        let mut fault = made.seen.fault();
         let unladen = match &self.sensor.tool {
             tool if tool.mass == 0.0 => *reading.wrench,
             tool => *reading.wrench - tool.weight(&R()),
         };
-        let progress = self.tare.sampled(reading.tare, &unladen, fault, q);
-        let (tare, bias) = match &progress {
+        tare.sampled(reading.tare, &unladen, fault, q, &mut made.progress);
+        made.requested = reading.tare;
+        let (tare, bias) = match &made.progress {
             Some(progress) => (progress.state, &progress.bias),
-            None => (self.tare.state(), self.tare.bias()),
+            None => (tare.state(), tare.bias()),
         };
         let is_known = fault.is_none() && tare != TareState::Running;
         let mut hand = Wrench::ZERO;
-        let mut passed = self.filter.at_rest();
+        made.passed = self.filter.at_rest();
         if is_known {
             hand = (unladen - *bias).about(&self.sensor.handle.into());
-            if passed.is_some() {
+            if made.passed.is_some() {
                 hand = self.filter.passed(&hand);
-                passed = Some(hand);
+                made.passed = Some(hand);
             }
             hand.force = deadband(&hand.force, self.sensor.deadband);
             // A tool of 1e308 kg, say: what is left of the reading is no number, and no force is known.
             if !real::are_finite(hand.force.iter().chain(&hand.torque)) {
                 (hand, fault) = (Wrench::ZERO, Some(Fault::NotFinite));
-                passed = self.filter.at_rest();
+                made.passed = self.filter.at_rest();
             }
         }
-        let made = Made {
-            seen,
-            requested: reading.tare,
-            progress,
-            passed,
-        };
-        (made, Conditioned { hand, fault, tare })
+        Conditioned { hand, fault, tare }
     }
 
     /// Goes on from what is to be remembered of a sample.

@@ -154,7 +154,7 @@ impl Tare {
     }
 
     /// One sample: whether a tare is `requested`, the reading without the tool's weight, the sensor's fault, the joint
-    /// angles `q` (rad). What changes by it but the request; nothing while no tare runs.
+    /// angles `q` (rad). What changes by it but the request, into `progress`; nothing while no tare runs.
     #[inline]
     pub(super) fn sampled(
         &self,
@@ -162,10 +162,13 @@ impl Tare {
         unladen: &Wrench,
         fault: Option<Fault>,
         q: impl FnOnce() -> Vector3<Real>,
-    ) -> Option<Progress> {
+        progress: &mut Option<Progress>,
+    ) {
         let is_running = self.state() == TareState::Running;
         let asked = requested && !self.requested;
-        (asked || is_running).then(|| self.taken(unladen, fault, &q()))
+        if asked || is_running {
+            *progress = Some(self.taken(unladen, fault, &q()));
+        }
     }
 
     /// Goes on from a sample at which a tare was `requested` or not, and what changed by it.

@@ -92,8 +92,8 @@ struct Past {
     zeros: u32,
 }
 
-/// What is seen with a sample.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// What is seen with a sample; by default nothing.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Seen {
     /// none where no check looks back
     past: Option<Past>,
@@ -150,12 +150,14 @@ impl Validity {
         }
     }
 
-    /// What is seen with the sample `raw`, and with it the fault, if there is one. `flag` is the sensor's own word: false =
+    /// What is `seen` with the sample `raw`, and with it the fault, if there is one. `flag` is the sensor's own word: false =
     /// invalid.
     #[inline]
-    pub(super) fn sampled(&self, raw: &Wrench, flag: bool) -> Seen {
+    pub(super) fn sampled(&self, raw: &Wrench, flag: bool, seen: &mut Seen) {
         let finite = real::are_finite(raw.force.iter().chain(&raw.torque));
-        let past = self.checks.look_back().then(|| self.past.with(raw, finite));
+        if self.checks.look_back() {
+            seen.past = Some(self.past.with(raw, finite));
+        }
         let found = if !finite {
             Some(Fault::NotFinite)
         } else if !flag {
@@ -163,15 +165,15 @@ impl Validity {
         } else if reaches(raw, self.checks.range_force, self.checks.range_torque) {
             Some(Fault::OverRange)
         } else {
-            past.and_then(|now| self.found(raw, &now))
+            let past = seen.past.as_ref();
+            past.and_then(|now| self.found(raw, now))
         };
-        let (fault, sound) = match (found, self.fault) {
+        (seen.fault, seen.sound) = match (found, self.fault) {
             (None, None) => (None, self.sound),
             (None, Some(fault)) => self.recovering(fault),
             (Some(Fault::Rate), Some(fault)) => (Some(fault), 0.0),
             (Some(found), _) => (Some(found), 0.0),
         };
-        Seen { past, fault, sound }
     }
 
     /// Goes on from what was `seen` with a sample.
