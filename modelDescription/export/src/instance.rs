@@ -161,6 +161,7 @@ impl<M: Model> Instance<M> {
     /// fmi2ExitInitializationMode, fmi3ExitInitializationMode
     pub(crate) fn exit_initialization_mode(&mut self) -> Outcome {
         self.initialize()?;
+        self.routes.make_room();
         self.now.phase = Phase::StepComplete;
         let start_time = self.now.clock.start_time();
         self.log().event(format_args!(

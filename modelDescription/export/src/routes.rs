@@ -10,8 +10,8 @@ use crate::kind::Kind;
 use crate::legality::Phase;
 use crate::model::Model;
 use crate::slots::interval;
-use fmu_declaration::Variable;
 use fmu_declaration::place::Point;
+use fmu_declaration::{Access, Variable};
 
 /// Lists of each type and direction that are known at a time: an importer has one for each connection, or one for all.
 const LISTS: usize = 4;
@@ -19,7 +19,7 @@ const LISTS: usize = 4;
 /// Values from which on a list is worth it: fewer are found as fast one by one.
 const LEAST: usize = 3;
 
-/// Unknown lists that are let pass, after one that leads nowhere, and before a known one makes room for another.
+/// Unknown lists that are let pass, after one that leads nowhere, and before known ones make room for others.
 const PATIENCE: u32 = 64;
 
 /// All that are known.
@@ -45,27 +45,35 @@ pub struct Settable<M, V> {
     high: f64,
 }
 
-/// The lists that are known, with what they lead to.
+/// The lists that are known, with what they lead to. They lie in a room that is made before the first step: nothing is
+/// allocated while it runs.
 struct Known<P> {
-    lists: Vec<List<P>>,
+    references: Vec<u32>,
+    points: Vec<P>,
+    lists: [List; LISTS],
+    count: usize,
     /// unknown ones to be let pass
     patience: u32,
-    /// the next one to make room
-    oldest: usize,
+    /// whether that was for want of room
+    has_waited: bool,
 }
 
-/// A list, and where each of its values is.
-struct List<P> {
-    references: Box<[u32]>,
-    points: Box<[P]>,
+/// Where the references and the points of a list lie.
+#[derive(Clone, Copy, Default)]
+struct List {
+    references: (usize, usize),
+    points: (usize, usize),
 }
 
 impl<P> Default for Known<P> {
     fn default() -> Self {
         Self {
-            lists: Vec::new(),
+            references: Vec::new(),
+            points: Vec::new(),
+            lists: [List::default(); LISTS],
+            count: 0,
             patience: 0,
-            oldest: 0,
+            has_waited: false,
         }
     }
 }
@@ -89,54 +97,119 @@ impl<M> Default for Routes<M> {
     }
 }
 
+impl<M: Model> Routes<M> {
+    /// Makes room for each list with all there is, and for others as long.
+    pub(crate) fn make_room(&mut self) {
+        let (mut reals, mut wholes, mut flags) = ([0; 2], [0; 2], [0; 2]);
+        for row in M::DESCRIPTION.variables {
+            let [gets, sets] = match row.access {
+                Access::Real { .. } => &mut reals,
+                Access::Integer { .. } | Access::Enumeration { .. } => &mut wholes,
+                Access::Boolean { .. } => &mut flags,
+                Access::String { .. } | Access::Wide { .. } | Access::Binary { .. } => continue,
+            };
+            *gets += row.len;
+            *sets += if interval(row).is_some() { row.len } else { 0 };
+        }
+        self.reals.make_room(reals);
+        self.wholes.make_room(wholes);
+        self.flags.make_room(flags);
+    }
+}
+
+impl<M, V> Both<M, V> {
+    fn make_room(&mut self, [gets, sets]: [usize; 2]) {
+        self.gets.make_room(gets);
+        self.sets.make_room(sets);
+    }
+}
+
 impl<P> Known<P> {
+    fn make_room(&mut self, all: usize) {
+        if self.points.capacity() == 0 && all >= LEAST {
+            self.references.reserve_exact(2 * all);
+            self.points.reserve_exact(2 * all);
+        }
+    }
+
     /// What a list of `n` values leads to.
     #[inline]
     fn find(&self, references: &[u32], n: usize) -> Option<&[P]> {
-        let known = |list: &&List<P>| list.points.len() == n && *list.references == *references;
-        self.lists.iter().find(known).map(|list| &*list.points)
+        for list in self.lists.get(..self.count)? {
+            let (first, end) = list.points;
+            if end - first != n {
+                continue;
+            }
+            let known = self.references.get(list.references.0..list.references.1);
+            if known == Some(references) {
+                return self.points.get(first..end);
+            }
+        }
+        None
     }
 
-    /// Remembers a list, if it leads anywhere.
+    /// Remembers a list of `n` values, if it leads anywhere: `lead` says where, one by one.
     #[cold]
-    fn learn(&mut self, references: &[u32], lead: impl FnOnce() -> Option<Box<[P]>>) {
+    fn learn(
+        &mut self,
+        references: &[u32],
+        n: usize,
+        lead: impl FnOnce(&mut dyn FnMut(P)) -> Option<()>,
+    ) {
         if self.patience > 0 {
             self.patience -= 1;
             return;
         }
-        let Some(points) = lead() else {
+        let room = self.points.capacity();
+        let is_full = self.count == LISTS
+            || self.points.len() + n > room
+            || self.references.len() + references.len() > self.references.capacity();
+        if is_full && !self.has_waited {
+            (self.has_waited, self.patience) = (true, PATIENCE);
+            return;
+        }
+        if is_full {
+            // What no longer comes makes room; what still does is soon known again.
+            self.references.clear();
+            self.points.clear();
+            (self.count, self.has_waited) = (0, false);
+        }
+        let (used, before) = (self.points.len(), self.references.len());
+        let fits = n <= room && references.len() <= self.references.capacity();
+        let points = &mut self.points;
+        let mut push = |point| {
+            if points.len() < room {
+                points.push(point);
+            }
+        };
+        let is_led = fits && lead(&mut push).is_some();
+        if !is_led || self.points.len() != used + n {
+            self.points.truncate(used);
             self.patience = PATIENCE;
             return;
-        };
-        let list = List {
-            references: references.into(),
-            points,
-        };
-        if self.lists.len() < LISTS {
-            self.lists.push(list);
-        } else {
-            self.lists[self.oldest] = list;
-            self.oldest = (self.oldest + 1) % LISTS;
         }
-        if self.lists.len() == LISTS {
-            self.patience = PATIENCE;
-        }
+        self.references.extend_from_slice(references);
+        self.lists[self.count] = List {
+            references: (before, self.references.len()),
+            points: (used, self.points.len()),
+        };
+        self.count += 1;
     }
 }
 
-/// What `of` makes of each value of a list, if it makes something of all.
+/// Hands on what `of` makes of each value of a list, as long as it makes something of all.
 fn lead<K: Kind, M: Model, P>(
     references: &[u32],
     of: impl Fn(&'static Variable<M>, Point<M, K::Value>) -> Option<P>,
-) -> Option<Box<[P]>> {
-    let mut points = Vec::new();
+    push: &mut dyn FnMut(P),
+) -> Option<()> {
     for &reference in references {
         let (row, element) = find::<K, M>(reference)?;
         let at = K::at(&row.access)?;
         let missing = K::visit(row, element, 0, |element, _| {
             match of(row, at.point(element)) {
                 Some(point) => {
-                    points.push(point);
+                    push(point);
                     None
                 }
                 None => Some(()),
@@ -146,7 +219,7 @@ fn lead<K: Kind, M: Model, P>(
             return None;
         }
     }
-    Some(points.into())
+    Some(())
 }
 
 impl<M: Model> Instance<M> {
@@ -269,8 +342,9 @@ impl<M: Model> Instance<M> {
             return;
         }
         if let Some(both) = K::routes_mut(&mut self.routes) {
-            let points = || lead::<K, M, _>(references, |_, point| Some(point));
-            both.gets.learn(references, points);
+            both.gets.learn(references, n, |push| {
+                lead::<K, M, _>(references, |_, point| Some(point), push)
+            });
         }
     }
 
@@ -281,13 +355,13 @@ impl<M: Model> Instance<M> {
             return;
         }
         if let Some(both) = K::routes_mut(&mut self.routes) {
-            let points = || {
-                lead::<K, M, _>(references, |row, at| {
-                    let (low, high) = interval(row)?;
-                    Some(Settable { at, low, high })
-                })
+            let settable = |row, at| {
+                let (low, high) = interval(row)?;
+                Some(Settable { at, low, high })
             };
-            both.sets.learn(references, points);
+            both.sets.learn(references, n, |push| {
+                lead::<K, M, _>(references, settable, push)
+            });
         }
     }
 }
