@@ -283,8 +283,10 @@ def test_a_port_that_is_taken_is_a_sentence(served: Served) -> None:
 def test_ctrl_c_ends_the_command(fmu_dir: Path, tmp_path: Path) -> None:
     command = [sys.executable, "-m", "exo.cli", "play", "--no-browser", "--fmu-dir", str(fmu_dir)]
     with subprocess.Popen(
-        command, cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env={**os.environ}
-    ) as process:
+        command, cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env={**os.environ},
+        # A job in the background has SIGINT ignored, and its children, too.
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),  # noqa: PLW1509  see test_sweep_killed.py
+    ) as process:  # fmt: skip
         assert process.stdout is not None
         assert "http://127.0.0.1:" in process.stdout.readline()
         process.stdout.readline()

@@ -14,6 +14,8 @@ from exo import experiment as experiments
 from exo import loop, replay, scenario
 from exo.experiment import Experiment
 
+from browser import until
+
 WEB = Path(__file__).resolve().parents[2] / "harness" / "src" / "exo" / "web"
 WEBGL = ("--use-angle=swiftshader", "--enable-unsafe-swiftshader")
 NO_WEBGL = ("--disable-3d-apis",)
@@ -188,8 +190,7 @@ def test_the_nominal_hand_is_drawn_where_the_law_has_it_or_named_with_its_distan
     drawn = np.array(arm["nominal"]) - hand
     assert np.cross(drawn, nominal - hand) == pytest.approx(np.zeros(3), abs=1e-3)
     assert other["nominal"] == pytest.approx(place(payload, ARMS[1], "controller.p_n", 9.0), abs=1e-3)
-    page.page.wait_for_timeout(300)
-    assert f"nominal hand, {distance:.3f} m away" in page.text()
+    until(page.page, lambda: f"nominal hand, {distance:.3f} m away" in page.text())
 
 
 def test_the_payload_is_lifted_with_the_pad_and_stays_where_the_standard_law_sticks(
@@ -483,8 +484,7 @@ def test_a_live_testbed_sticks_and_lets_go_when_the_recorded_one_does(wall: Expe
         assert within[-1] == pytest.approx(one["to"], abs=0.041)
     after = page.page.evaluate("(state) => handle.update(state)", {**fed[-1], "time": 50.0})
     assert after["kind"] == "free"
-    page.page.wait_for_timeout(200)
-    assert page.state()["q"] == pytest.approx(fed[-1]["q"])
+    until(page.page, lambda: page.state()["q"] == pytest.approx(fed[-1]["q"]))
     page.page.evaluate("handle.dispose()")
     assert page.page.evaluate("place.childElementCount") == 0
 
@@ -501,10 +501,9 @@ def test_a_live_arm_follows_its_joints_and_takes_another_payload(payload: Experi
             "f_h": place(payload, ARMS[1], "plant.f_h", time),
         }
         page.page.evaluate("(state) => handle.update(state)", {"time": time, "attached": time > 5.0, "arms": [arm]})
-        page.page.wait_for_timeout(200)
-        assert page.state()["arms"][0]["hand"] == pytest.approx(place(payload, ARMS[1], "plant.p", time), abs=1e-9)
-    assert "payload 17.5 kg" in page.text()
+        hand = pytest.approx(place(payload, ARMS[1], "plant.p", time), abs=1e-9)
+        until(page.page, lambda hand=hand: page.state()["arms"][0]["hand"] == hand)
+    until(page.page, lambda: "payload 17.5 kg" in page.text())
     heavier = {**geometry, "payload": {**geometry["payload"], "mass": 25.0}}
     page.page.evaluate("(geometry) => handle.reshape(geometry)", heavier)
-    page.page.wait_for_timeout(200)
-    assert "payload 25 kg" in page.text()
+    until(page.page, lambda: "payload 25 kg" in page.text())

@@ -126,8 +126,8 @@ def test_who_ends_the_checker_leaves_neither_files_nor_processes(
     number: signal.Signals, tmp_path: Path, temporary: Path
 ) -> None:
     path = plain(tmp_path, "-DHANG").write(tmp_path)
-    # A shell's background jobs ignore SIGINT, and so would the checker if the tests are one.
-    heard = "import signal; signal.signal(signal.SIGINT, signal.default_int_handler)"
+    # A shell's background jobs ignore SIGINT, those of nohup SIGHUP, and so would the checker if the tests are one.
+    heard = "import signal as s; s.signal(s.SIGINT, s.default_int_handler); s.signal(s.SIGHUP, s.SIG_DFL)"
     command = [sys.executable, "-c", f"{heard}; from exo.cli import app; app()", "validate", str(path)]
     checker = subprocess.Popen(
         command, env={**os.environ, "TMPDIR": str(temporary)}, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
