@@ -45,8 +45,8 @@ pub enum Error {
     /// The standard, or the way the model steps, does not allow this combination.
     #[error(
         "{row}: {causality:?} and {variability:?} do not go together here (only Reals are Continuous; inputs and \
-         outputs are Discrete or Continuous, of a Sampled model Discrete; parameters are Fixed or Tunable; this \
-         model is {stepping:?})"
+         outputs are Discrete or Continuous, of a Sampled model Discrete: write discrete in its attribute, or #[rows(discrete)] above the \
+         struct; parameters are Fixed or Tunable; this model is {stepping:?})"
     )]
     Variability {
         /// Row.

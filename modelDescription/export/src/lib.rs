@@ -1,10 +1,7 @@
 //! The C interfaces of any model: FMI 2.0 co-simulation, FMI 3.0 co-simulation and scheduled execution.
 //!
 //! A model is a struct whose fields are its variables ([`interface`](macro@interface), [`declaration`]) and which can be initialized and
-//! stepped ([`Model`]). [`export!`] turns it into the 34 C functions of the standard. This crate knows no robot; the smallest
-//! model, an integrator, is in `examples/integrator.rs`.
-//! A model is a struct whose fields are its variables ([`fmu_declaration`]) and which can be initialized and stepped
-//! ([`Model`]). [`export!`] turns it into the 34 C functions of FMI 2.0 and the 75 of FMI 3.0. This crate knows no robot; the
+//! stepped ([`Model`]). [`export!`] turns it into the 34 C functions of FMI 2.0 and the 75 of FMI 3.0. This crate knows no robot; the
 //! smallest model, an integrator, is in `examples/integrator.rs`.
 //!
 //! The life of a call, for every function alike:
@@ -37,6 +34,7 @@
 //! | `outputs` | nothing but finite numbers leaves a model | |
 //! | [`provenance`] | version and git hash, which every model has | |
 //! | `interface` | what `cargo fmu` reads, in a build for it alone | |
+//! | [`arrays`] | arrays of any length as a part of a state | |
 //! | [`snapshot`] | FMU state as bytes with a checked format | 2.1.8 |
 //! | `stop` | the stop time, and which step leads past it | 2.1.6 |
 //! | [`resource`] | `fmuResourceLocation` as a path | 2.1.5 |
@@ -46,6 +44,7 @@
 extern crate self as fmu_export;
 
 pub mod access;
+pub mod arrays;
 pub mod clock;
 pub mod failure;
 pub mod ffi;

@@ -168,3 +168,44 @@ fn what_the_attribute_declares_steps_and_serializes() {
     let copy: Tank = postcard::from_bytes(&bytes).expect("reads");
     assert_eq!(copy.history, [1.0]);
 }
+
+/// A name that a model may well have, beside those that the attribute needs.
+const N: usize = 100;
+
+/// A cell.
+#[group]
+struct Cell {
+    /// temperatures over its depth
+    #[output(0, unit = KELVIN, range = 0.0..=(N as f64))]
+    depth: f64,
+    memory: [[f64; 2]; N + 1],
+}
+
+/// A rod of many cells
+#[interface(step = 0.1)]
+struct Rod {
+    /// temperatures
+    #[output(0, unit = KELVIN)]
+    temperatures: [f64; 200],
+    #[part(each, from = 1, prefix = "cell.")]
+    cells: [Cell; N],
+    texts: [String; 33],
+    short: [f64; 32],
+}
+
+#[test]
+fn arrays_may_be_longer_than_serde_knows_and_are_the_bytes_that_shorter_ones_are() {
+    let mut rod = Rod::default();
+    assert_eq!(Rod::DESCRIPTION.scalars().count(), 200 + N);
+    (rod.temperatures[199], rod.cells[99].memory[N]) = (1.0, [2.0, 3.0]);
+    rod.texts[32] = "the last".into();
+    let bytes = postcard::to_allocvec(&rod).expect("serializes");
+    let copy: Rod = postcard::from_bytes(&bytes).expect("reads");
+    assert_eq!(copy.temperatures, rod.temperatures);
+    assert_eq!(copy.cells[99].memory, rod.cells[99].memory);
+    assert_eq!((copy.texts, copy.short), (rod.texts, rod.short));
+    assert!(postcard::from_bytes::<Rod>(&bytes[..bytes.len() - 1]).is_err());
+    // An array is its elements and nothing else.
+    let cell = 8 * (1 + 2 * (N + 1));
+    assert_eq!(bytes.len(), 8 * 200 + N * cell + 32 + 1 + 8 + 8 * 32);
+}

@@ -1,10 +1,11 @@
 //! `#[interface(…)]`: a struct as a whole model's interface. `#[group]`: a struct whose rows are part of one.
 
 use crate::attribute::about;
+use crate::start::is_long;
 use proc_macro2::TokenStream;
 use quote::quote;
 use syn::parse::{Parse, ParseStream};
-use syn::{Error, Expr, Ident, ItemStruct, LitStr, Result, Token};
+use syn::{Error, Expr, Ident, ItemStruct, LitStr, Result, Token, Type, parse_quote};
 
 /// What stands in the brackets.
 pub struct Whole {
@@ -61,6 +62,13 @@ impl Parse for Whole {
 
 /// The struct with what its derives give it.
 pub fn group(item: &ItemStruct) -> TokenStream {
+    let mut item = item.clone();
+    for field in &mut item.fields {
+        let is_long = matches!(&field.ty, Type::Array(array) if is_long(&array.len));
+        if is_long && !field.attrs.iter().any(|a| a.path().is_ident("serde")) {
+            (field.attrs).push(parse_quote!(#[serde(with = "::fmu_export::arrays")]));
+        }
+    }
     quote! {
         #[derive(
             ::core::clone::Clone,
@@ -127,7 +135,6 @@ pub fn interface(whole: &Whole, item: &ItemStruct) -> Result<TokenStream> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use syn::parse_quote;
 
     fn refused(whole: &str, item: &ItemStruct) -> String {
         let whole = match syn::parse_str::<Whole>(whole) {

@@ -58,7 +58,8 @@
 //! | `Vec<u8>` | – | Binary |
 //!
 //! A model with a variable that FMI 2.0 has no type for has archives of FMI 3.0 alone. An alias of a type stands for `f64` or
-//! `f32`; write the other types by their names.
+//! `f32`; write the other types by their names. A variable has at most 256 elements; an array that is none may have any number.
+//! Of an array of arrays the inner ones have at most 32 elements, as serde has it.
 
 use proc_macro::TokenStream;
 use quote::quote;

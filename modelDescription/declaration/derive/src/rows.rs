@@ -73,19 +73,20 @@ pub fn derive(item: &DeriveInput, root: &TokenStream) -> Result<TokenStream> {
     Ok(quote! {
         impl #root::compose::Rows for #name {
             const ROWS: &'static [#root::Variable<Self>] = {
-                const N: usize = 0 #(+ #counts)*;
-                const SORTED: [#root::Variable<#name>; N] = #root::compose::#order(#name::rows_as_written());
+                const __COUNT: usize = 0 #(+ #counts)*;
+                const SORTED: [#root::Variable<#name>; __COUNT] = #root::compose::#order(#name::rows_as_written());
                 &SORTED
             };
         }
 
         impl #name {
             #[doc(hidden)]
-            const fn rows_as_written<const N: usize>() -> [#root::Variable<Self>; N] {
-                let mut rows = [#root::Variable::NOTHING; N];
+            // No name that the struct's own expressions may have.
+            const fn rows_as_written<const __COUNT: usize>() -> [#root::Variable<Self>; __COUNT] {
+                let mut rows = [#root::Variable::NOTHING; __COUNT];
                 let mut n = 0;
                 #(#writes)*
-                assert!(n == N);
+                assert!(n == __COUNT);
                 rows
             }
         }
