@@ -18,28 +18,29 @@ const SINGLY: u32 = 30;
 pub fn solve(problem: &Problem, guess: &mut Guess) -> Solution {
     let check = Check::of(problem);
     for round in 0..TOGETHER + SINGLY {
-        let solution = guess.solve(problem);
+        let mut solution = guess.solve(problem);
         if !check.revise(&solution, guess, round >= TOGETHER) {
-            let path = if round == 0 {
-                Path::Guessed
-            } else {
-                Path::Revised(round)
-            };
-            return settled(problem, solution, guess, path);
+            if round > 0 {
+                solution.path = Path::Revised(round);
+            }
+            settle(problem, &mut solution, guess);
+            return solution;
         }
     }
     let swept = gauss_seidel::solve(problem, gauss_seidel::SWEEPS);
     *guess = check.seen(&swept);
-    let solution = guess.solve(problem);
+    let mut solution = guess.solve(problem);
     if check.revise(&solution, &mut guess.clone(), false) {
         return swept; // as good as it got
     }
-    settled(problem, solution, guess, swept.path)
+    solution.path = swept.path;
+    settle(problem, &mut solution, guess);
+    solution
 }
 
 /// Removes what rounding left: no sliding against its sense, no force beyond what its law allows; friction on the surfaces
 /// keeps to it already.
-fn settled(problem: &Problem, mut solution: Solution, guess: &Guess, path: Path) -> Solution {
+fn settle(problem: &Problem, solution: &mut Solution, guess: &Guess) {
     for (i, joint) in problem.joints.iter().enumerate() {
         let (v, impulse) = (&mut solution.v[i], &mut solution.joint[i]);
         match guess.joint[i] {
@@ -55,5 +56,4 @@ fn settled(problem: &Problem, mut solution: Solution, guess: &Guess, path: Path)
             *n = n.max(0.0);
         }
     }
-    Solution { path, ..solution }
 }
