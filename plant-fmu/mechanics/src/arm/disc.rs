@@ -51,6 +51,7 @@ impl Slip {
     ///
     /// μ (n − c·t)/|t| rises with γ and is nearly linear in it, so that Newton's iteration for its value 1 takes two or
     /// three rounds; an interval around the root guards it.
+    #[inline(always)]
     pub fn friction(&self) -> Vector2<f64> {
         let Self { S, w, n, c, mu } = self;
         let (limit, trace) = (mu * n, S.trace());
