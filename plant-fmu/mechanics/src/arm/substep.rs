@@ -4,7 +4,7 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::drive::Drive;
 use super::floored;
-use super::flow::{Flow, Taken};
+use super::flow::{Flow, Left, Taken};
 use super::kinematics::Pose;
 use super::parameters::Parameters;
 use super::payload::Hold;
@@ -127,32 +127,33 @@ impl Arm {
             configuration,
             ..
         } = self;
-        let (before, Configuration { place: from, body }) = (*state, *configuration);
-        *state = State {
-            q: before.q + solution.v * dt,
-            dq: solution.v.map(floored),
-            tau,
-            ..before
+        let v = solution.v.map(floored);
+        let Configuration { place: from, body } = &*configuration;
+        let left = Left::of(state, from, body, &v);
+        let w_before = if state.attached {
+            from.pad.J * state.dq
+        } else {
+            Vector3::zeros() // not used
         };
+        (state.q, state.dq, state.tau) = (left.q + solution.v * dt, v, tau);
         for (q, stops) in state.q.iter_mut().zip(&parameters.stops) {
             *q = q.max(stops.min).min(stops.max); // not beyond a stop, not by rounding either
         }
-        if !identical(&state.q, &before.q) {
+        if !identical(&state.q, &left.q) {
             configuration.follow(parameters, state);
         }
         let to = &configuration.place;
         for (k, surface) in parameters.surfaces().iter().enumerate() {
             let penetration = surface.penetration(FACINGS[k], to.pad.p[FACINGS[k].axis()]);
-            state.s[k] = penetration.max(surface.wall().relaxed(before.s[k], dt));
+            state.s[k] = penetration.max(surface.wall().relaxed(left.s[k], dt));
         }
 
         let friction = Vector3::from_fn(|i, _| problem.joints[i].friction(solution.joint[i]));
         let flow = Taken {
             parameters,
-            body: &body,
             solution,
             friction: &friction,
-            before: (&before, &from),
+            left: &left,
             after: (state, to),
             dt,
         }
@@ -165,7 +166,7 @@ impl Arm {
             path: solution.path,
         };
         if state.attached {
-            let a = (to.pad.J * state.dq - from.pad.J * before.dq) / dt;
+            let a = (to.pad.J * state.dq - w_before) / dt;
             let (m, gravity) = (parameters.payload_m, &parameters.masses.gravity);
             self.shown.hold = Hold::of(m, &a, gravity, &self.shown.f_e);
         }
