@@ -21,9 +21,16 @@ impl Parameters {
     }
 
     /// The rigid body at `pose`, with a held payload or without.
+    #[inline]
     pub(crate) fn body(&self, pose: &Pose, attached: bool) -> RigidBody {
         let payload = if attached { self.payload_m } else { 0.0 };
         RigidBody::at(pose, &self.lengths, &self.masses, payload)
+    }
+
+    /// The same, written into `body`: a copy would wait for what was just written.
+    #[inline(never)]
+    pub(crate) fn weigh(&self, body: &mut RigidBody, pose: &Pose, attached: bool) {
+        *body = self.body(pose, attached);
     }
 
     /// Viscous friction of the joints (N·m·s/rad).
