@@ -6,6 +6,7 @@
 
 use super::gauss_seidel;
 use super::guess::{Guess, Motion};
+use super::order::{least, most};
 use super::problem::{Path, Problem, Solution};
 use super::revision::Check;
 
@@ -46,9 +47,9 @@ fn settle(problem: &Problem, solution: &mut Solution, guess: &Guess) {
         match guess.joint[i] {
             Motion::Forward => *v = v.max(0.0).min(joint.high),
             Motion::Backward => *v = v.min(0.0).max(joint.low),
-            Motion::Held => *impulse = impulse.max(joint.least()).min(joint.most()),
-            Motion::High => *impulse = impulse.min(-joint.against[0]),
-            Motion::Low => *impulse = impulse.max(joint.against[1]),
+            Motion::Held => *impulse = least(most(*impulse, joint.least()), joint.most()),
+            Motion::High => *impulse = least(*impulse, -joint.against[0]),
+            Motion::Low => *impulse = most(*impulse, joint.against[1]),
         }
     }
     if guess.touches() {

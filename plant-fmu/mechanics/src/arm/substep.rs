@@ -6,6 +6,7 @@ use super::drive::Drive;
 use super::floored;
 use super::flow::{Flow, Left, Taken};
 use super::kinematics::Pose;
+use super::order::{least, most};
 use super::parameters::Parameters;
 use super::payload::Hold;
 use super::plant::Arm;
@@ -144,7 +145,7 @@ impl Arm {
         };
         (state.q, state.dq, state.tau) = (left.q + solution.v * dt, v, tau);
         for (q, stops) in state.q.iter_mut().zip(&parameters.stops) {
-            *q = q.max(stops.min).min(stops.max); // not beyond a stop, not by rounding either
+            *q = least(most(*q, stops.min), stops.max); // not beyond a stop, not by rounding either
         }
         if !identical(&state.q, &left.q) {
             configuration.follow(parameters, state);
@@ -152,7 +153,7 @@ impl Arm {
         let to = &configuration.place;
         for (k, surface) in parameters.surfaces().iter().enumerate() {
             let penetration = surface.penetration(FACINGS[k], to.pad.p[FACINGS[k].axis()]);
-            state.s[k] = penetration.max(surface.wall().relaxed(left.s[k], dt));
+            state.s[k] = most(penetration, surface.wall().relaxed(left.s[k], dt));
         }
 
         let friction = Vector3::from_fn(|i, _| problem.joints[i].friction(solution.joint[i]));
