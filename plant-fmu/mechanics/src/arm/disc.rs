@@ -84,11 +84,9 @@ impl Slip {
             let size = libm::sqrt(t.norm_squared());
             let most = mu * (n - c.dot(&t));
             let over = size - most;
-            if over > 0.0 {
-                low = gamma;
-            } else {
-                high = gamma;
-            }
+            // over > 0, asked twice, is two masks; asked once it is a branch, of which a third would be guessed wrong.
+            low = if size > most { gamma } else { low };
+            high = if over > 0.0 { high } else { gamma };
             // d(most/|t|)/dγ · |t|
             let rise = -mu * c.dot(&slope) - most / size * (t.dot(&slope) / size);
             let next = gamma + if rise > 0.0 { over / rise } else { -1.0 };
