@@ -34,6 +34,12 @@ impl Parameters {
         *body = self.body(pose, attached);
     }
 
+    /// Deflections (m) to which table and wall relax from `s` within `dt` (s).
+    fn relaxed(&self, s: &[f64; 2], dt: f64) -> [f64; 2] {
+        let surfaces = self.surfaces();
+        [0, 1].map(|k| surfaces[k].wall().relaxed(s[k], dt))
+    }
+
     /// Viscous friction of the joints (N·m·s/rad).
     pub(crate) fn viscous(&self) -> Vector3<f64> {
         Vector3::new(self.friction[0].b, self.friction[1].b, self.friction[2].b)
@@ -55,16 +61,34 @@ pub fn problem(
     inputs: &Inputs,
     dt: f64,
 ) -> Problem {
+    let relaxed = parameters.relaxed(&state.s, dt);
+    put_together(parameters, state, place, body, tau, inputs, &relaxed, dt)
+}
+
+/// The same with the deflections to which the surfaces relax (m).
+#[inline(always)]
+#[allow(
+    clippy::too_many_arguments,
+    reason = "the terms of one equation, each by its name"
+)]
+fn put_together(
+    parameters: &Parameters,
+    state: &State,
+    place: &Place,
+    body: &RigidBody,
+    tau: &Vector3<f64>,
+    inputs: &Inputs,
+    relaxed: &[f64; 2],
+    dt: f64,
+) -> Problem {
     let State { q, dq, .. } = state;
     let (f_h, f_d) = (Vector3::from(inputs.f_h), Vector3::from(inputs.f_d));
     let torque =
         tau + place.handle.J.tr_mul(&f_h) + place.pad.J.tr_mul(&f_d) - body.C(dq) * dq - body.g;
     let contact = |k: usize| {
         let (facing, surface) = (FACINGS[k], parameters.surfaces()[k]);
-        let wall = surface.wall();
-        let kappa = wall.impedance(dt);
-        let beyond =
-            surface.penetration(facing, place.pad.p[facing.axis()]) - wall.relaxed(state.s[k], dt);
+        let kappa = surface.wall().impedance(dt);
+        let beyond = surface.penetration(facing, place.pad.p[facing.axis()]) - relaxed[k];
         Contact {
             push: kappa * beyond,
             kappa_dt: kappa * dt,
@@ -91,6 +115,8 @@ pub(crate) struct Equation<'a> {
     /// Torques at the joints (N·m).
     tau: Vector3<f64>,
     pub(crate) problem: Problem,
+    /// Deflections to which the surfaces relax (m).
+    relaxed: [f64; 2],
     dt: f64,
 }
 
@@ -112,10 +138,12 @@ impl Arm {
             ..
         } = self;
         let tau = drive.step(&state.tau, &Vector3::from(inputs.tau_a));
+        let relaxed = parameters.relaxed(&state.s, dt);
         Equation {
             inputs,
             tau,
-            problem: problem(parameters, state, place, body, &tau, inputs, dt),
+            problem: put_together(parameters, state, place, body, &tau, inputs, &relaxed, dt),
+            relaxed,
             dt,
         }
     }
@@ -127,6 +155,7 @@ impl Arm {
             inputs,
             tau,
             ref problem,
+            relaxed,
             dt,
         } = *equation;
         let Self {
@@ -153,7 +182,7 @@ impl Arm {
         let to = &configuration.place;
         for (k, surface) in parameters.surfaces().iter().enumerate() {
             let penetration = surface.penetration(FACINGS[k], to.pad.p[FACINGS[k].axis()]);
-            state.s[k] = most(penetration, surface.wall().relaxed(left.s[k], dt));
+            state.s[k] = most(penetration, relaxed[k]);
         }
 
         let friction = Vector3::from_fn(|i, _| problem.joints[i].friction(solution.joint[i]));
