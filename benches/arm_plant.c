@@ -161,8 +161,9 @@ static inline double dry_limit(const struct arm_plant *arm, int i, double v)
 {
     double F_c = arm->with.F_c[i], F_s = arm->with.F_s[i];
     if (v == 0.0) return F_s;
-    double ratio = v / arm->with.v_s[i], square = ratio * ratio;
-    return square > 700.0 ? F_c : F_c + (F_s - F_c) * exp_of_less(-square);
+    double ratio = v / arm->with.v_s[i], square = ratio * ratio, peak = F_s - F_c;
+    if (peak == 0.0 || square > 700.0 || (square > 40.0 && peak <= F_c)) return F_c; /* the exponential would not show */
+    return F_c + peak * exp_of_less(-square);
 }
 
 /* (M + dt B) v = M dq + dt (tau + J_h' f_h + J_p' f_d - C dq - g) + impulses of friction, stops and surfaces. */

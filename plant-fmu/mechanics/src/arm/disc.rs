@@ -51,6 +51,7 @@ impl Slip {
     ///
     /// μ (n − c·t)/|t| rises with γ and is nearly linear in it, so that Newton's iteration for its value 1 takes two or
     /// three rounds; an interval around the root guards it.
+    #[inline(always)]
     pub fn friction(&self) -> Vector2<f64> {
         let Self { S, w, n, c, mu } = self;
         let (limit, trace) = (mu * n, S.trace());
@@ -83,11 +84,9 @@ impl Slip {
             let size = libm::sqrt(t.norm_squared());
             let most = mu * (n - c.dot(&t));
             let over = size - most;
-            if over > 0.0 {
-                low = gamma;
-            } else {
-                high = gamma;
-            }
+            // over > 0, asked twice, is two masks; asked once it is a branch, of which a third would be guessed wrong.
+            low = if size > most { gamma } else { low };
+            high = if over > 0.0 { high } else { gamma };
             // d(most/|t|)/dγ · |t|
             let rise = -mu * c.dot(&slope) - most / size * (t.dot(&slope) / size);
             let next = gamma + if rise > 0.0 { over / rise } else { -1.0 };

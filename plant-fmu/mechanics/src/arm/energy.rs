@@ -116,19 +116,23 @@ impl Ledger {
         }
     }
 
-    /// Books one substep.
+    /// Books what came and went with a payload.
+    pub(crate) fn exchange(&mut self, flow: &Flow) {
+        self.payload = self.payload.plus(flow.payload);
+        self.loss_grip = self.loss_grip.plus(flow.loss_grip);
+    }
+
+    /// Books one substep, but for the exchange of a payload.
     pub(crate) fn book(&mut self, flow: &Flow) {
         self.work_tau = self.work_tau.plus(flow.work_tau);
         self.work_f_h = self.work_f_h.plus(flow.work_f_h);
         self.work_f_d = self.work_f_d.plus(flow.work_f_d);
-        self.payload = self.payload.plus(flow.payload);
         self.loss_friction = self.loss_friction.plus(flow.loss_friction);
         self.loss_viscous = self.loss_viscous.plus(flow.loss_viscous);
         self.loss_stop = self.loss_stop.plus(flow.loss_stop);
         self.loss_surface = self.loss_surface.plus(flow.loss_surface);
         self.loss_rub = self.loss_rub.plus(flow.loss_rub);
         self.loss_impact = self.loss_impact.plus(flow.loss_impact);
-        self.loss_grip = self.loss_grip.plus(flow.loss_grip);
         self.loss_step = self.loss_step.plus(flow.loss_step);
     }
 

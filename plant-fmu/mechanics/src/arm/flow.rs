@@ -41,15 +41,44 @@ pub struct Flow {
     pub loss_step: f64,
 }
 
+/// What the energy needs of where a substep began: kept, as the arm moves on in place.
+pub(crate) struct Left {
+    /// Joint angles (rad).
+    pub(crate) q: Vector3<f64>,
+    /// Deflections of table and wall (m).
+    pub(crate) s: [f64; 2],
+    /// Positions of handle and pad (m).
+    handle: Vector3<f64>,
+    pad: Vector3<f64>,
+    /// J dq⁺: velocity of the pad at the end (m/s), with the Jacobian there.
+    w: Vector3<f64>,
+    /// ½ Δdqᵀ M Δdq (J).
+    jump: f64,
+}
+
+impl Left {
+    /// A `state` at `place`, where the rigid body is `body`, from which the arm moves on with the velocities `v` (rad/s).
+    pub(crate) fn of(state: &State, place: &Place, body: &RigidBody, v: &Vector3<f64>) -> Self {
+        Self {
+            q: state.q,
+            s: state.s,
+            handle: place.handle.p,
+            pad: place.pad.p,
+            w: place.pad.J * v,
+            jump: body.kinetic(&(v - state.dq)),
+        }
+    }
+}
+
 /// A substep that was taken.
 pub(crate) struct Taken<'a> {
     pub(crate) parameters: &'a Parameters,
-    pub(crate) body: &'a RigidBody,
     pub(crate) solution: &'a Solution,
     /// Impulse of dry friction on the joints (N·m·s).
     pub(crate) friction: &'a Vector3<f64>,
-    /// State and place before and after; the payload is still as before.
-    pub(crate) before: (&'a State, &'a Place),
+    /// Where it began.
+    pub(crate) left: &'a Left,
+    /// State and place after it; the payload is still as before.
     pub(crate) after: (&'a State, &'a Place),
     pub(crate) dt: f64,
 }
@@ -57,29 +86,27 @@ pub(crate) struct Taken<'a> {
 impl Taken<'_> {
     /// The energy that it moved.
     pub(crate) fn flow(&self, inputs: &Inputs) -> Flow {
-        let ((before, from), (after, to), dt) = (self.before, self.after, self.dt);
-        let v = &after.dq;
-        let w = from.pad.J * v;
+        let (left, (after, to), dt) = (self.left, self.after, self.dt);
+        let (v, jump) = (&after.dq, left.jump);
         let stop = self.solution.joint - self.friction;
-        let jump = self.body.kinetic(&(v - before.dq));
         let stopped = stop != Vector3::zeros();
         let mut flow = Flow {
-            work_tau: after.tau.dot(&(after.q - before.q)),
-            work_f_h: Vector3::from(inputs.f_h).dot(&(to.handle.p - from.handle.p)),
-            work_f_d: Vector3::from(inputs.f_d).dot(&(to.pad.p - from.pad.p)),
+            work_tau: after.tau.dot(&(after.q - left.q)),
+            work_f_h: Vector3::from(inputs.f_h).dot(&(to.handle.p - left.handle)),
+            work_f_d: Vector3::from(inputs.f_d).dot(&(to.pad.p - left.pad)),
             loss_friction: -self.friction.dot(v),
             loss_viscous: dt * self.parameters.viscous().dot(&v.component_mul(v)),
             loss_stop: -stop.dot(v) + if stopped { jump } else { 0.0 },
-            loss_rub: -self.solution.tangent.dot(&w),
+            loss_rub: -self.solution.tangent.dot(&left.w),
             loss_step: if stopped { 0.0 } else { jump },
             ..Flow::default()
         };
         for (k, surface) in self.parameters.surfaces().iter().enumerate() {
             let facing = FACINGS[k];
-            let penetration = surface.penetration(facing, from.pad.p[facing.axis()]);
-            let delta_s = after.s[k] - before.s[k];
+            let penetration = surface.penetration(facing, left.pad[facing.axis()]);
+            let delta_s = after.s[k] - left.s[k];
             flow.loss_surface += surface.c * delta_s * (delta_s / dt);
-            flow.loss_impact += self.solution.normal[k] / dt * (before.s[k] - penetration);
+            flow.loss_impact += self.solution.normal[k] / dt * (left.s[k] - penetration);
             flow.loss_step += surface.wall().energy(delta_s);
         }
         flow

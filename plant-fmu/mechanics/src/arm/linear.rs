@@ -103,7 +103,6 @@ impl<'a> Linear<'a> {
         let mut v = self.frictionless(&r);
         let mut normal = [0.0; 2];
         let mut tangent = Vector3::zeros();
-        let mut back = Vector3::zeros();
         if guess.touches() {
             let spread = self.spread();
             let rubbing = self.rubbing(&spread);
@@ -116,10 +115,19 @@ impl<'a> Linear<'a> {
                     tangent += problem.contacts[k].within(normal[k], &friction[k]);
                 }
             }
-            back = problem.J.tr_mul(&tangent);
         }
-        let needed = K * v - r - back;
-        let joint = Vector3::from_fn(|i, _| if held[i] { needed[i] } else { slide[i] });
+        // What holds a joint: K v − r − Jᵀ t.
+        let joint = Vector3::from_fn(|i, _| {
+            if !held[i] {
+                return slide[i];
+            }
+            let back = if guess.touches() {
+                problem.J.column(i).dot(&tangent)
+            } else {
+                0.0
+            };
+            K.row(i).transpose().dot(&v) - r[i] - back
+        });
         Solution {
             v,
             joint,

@@ -58,6 +58,7 @@ pub mod gear_loss;
 pub mod guess;
 pub mod kinematics;
 pub(crate) mod linear;
+mod order;
 pub mod parameters;
 pub mod payload;
 pub mod plant;

@@ -102,6 +102,7 @@ impl Arm {
     pub(crate) fn finish(&mut self, mut flow: Flow, event: Event) -> Flow {
         if event != Event::Stays && self.parameters.payload_m > 0.0 {
             self.exchange(&mut flow, event);
+            self.ledger.exchange(&flow);
         }
         self.kept &= self.state.attached;
         self.ledger.book(&flow);

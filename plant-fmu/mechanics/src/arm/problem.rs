@@ -2,6 +2,7 @@
 
 use nalgebra::{Matrix3, Vector3};
 
+use super::order::{least, most};
 use super::surface::Facing;
 
 /// The surfaces, in the order of every array of two.
@@ -95,12 +96,12 @@ impl Problem {
     /// Impulses that count as rounding (N·m·s, N·s): 1e-14 of the largest in the equation. Solving it costs some 50
     /// roundings of 1e-16 each, times a condition number of A of 10 to 30 that acts on the velocity only.
     pub(crate) fn rounding(&self) -> f64 {
-        let mut scale = self.b.amax();
+        let mut scale = self.b.iter().fold(0.0, |scale, b| most(scale, b.abs()));
         for joint in &self.joints {
-            scale = scale.max(joint.against[0]).max(joint.against[1]);
+            scale = most(scale, most(joint.against[0], joint.against[1]));
         }
         for contact in &self.contacts {
-            scale = scale.max(contact.push);
+            scale = most(scale, contact.push);
         }
         1e-14 * scale
     }
@@ -145,6 +146,6 @@ impl Joint {
 
     /// The share of friction in the impulse `joint` (N·m·s); the rest is the stop's.
     pub fn friction(&self, joint: f64) -> f64 {
-        joint.max(-self.against[0]).min(self.against[1])
+        least(most(joint, -self.against[0]), self.against[1])
     }
 }

@@ -8,19 +8,19 @@ pub(crate) struct Check<'a> {
     problem: &'a Problem,
     /// Impulse (N·m·s, N·s).
     impulse: f64,
-    /// Velocity of each joint (rad/s).
-    v: [f64; 3],
 }
 
 impl<'a> Check<'a> {
     pub(crate) fn of(problem: &'a Problem) -> Self {
-        let impulse = problem.rounding();
-        let v = [0, 1, 2].map(|i| impulse / problem.A[(i, i)]);
         Self {
             problem,
-            impulse,
-            v,
+            impulse: problem.rounding(),
         }
+    }
+
+    /// Velocity of joint `i` (rad/s) that counts as rounding, ≥ 0.
+    fn v(&self, i: usize) -> f64 {
+        self.impulse / self.problem.A[(i, i)]
     }
 
     /// Revises `guess` where `solution`, found from it, contradicts it: everywhere, or where it does first. Returns
@@ -56,11 +56,16 @@ impl<'a> Check<'a> {
     fn joint(&self, i: usize, motion: Motion, solution: &Solution) -> Motion {
         let joint = &self.problem.joints[i];
         let (v, impulse) = (solution.v[i], solution.joint[i]);
+        // Each velocity is first compared without rounding: that it does not pass is the rule, and costs no division.
         match motion {
-            Motion::Forward if v < -self.v[i] => Motion::Held,
-            Motion::Forward if v > joint.high + self.v[i] => beyond(joint.high, Motion::High),
-            Motion::Backward if v > self.v[i] => Motion::Held,
-            Motion::Backward if v < joint.low - self.v[i] => beyond(joint.low, Motion::Low),
+            Motion::Forward if v < 0.0 && v < -self.v(i) => Motion::Held,
+            Motion::Forward if v > joint.high && v > joint.high + self.v(i) => {
+                beyond(joint.high, Motion::High)
+            }
+            Motion::Backward if v > 0.0 && v > self.v(i) => Motion::Held,
+            Motion::Backward if v < joint.low && v < joint.low - self.v(i) => {
+                beyond(joint.low, Motion::Low)
+            }
             Motion::Held if impulse < joint.least() - self.impulse => Motion::Forward,
             Motion::Held if impulse > joint.most() + self.impulse => Motion::Backward,
             Motion::High if impulse > -joint.against[0] + self.impulse => Motion::Forward,
@@ -83,7 +88,7 @@ impl<'a> Check<'a> {
             } else if v <= joint.low && joint.low < 0.0 {
                 Motion::Low
             } else if impulse <= -joint.against[0] || impulse >= joint.against[1] {
-                sliding(v, self.v[i])
+                sliding(v, self.v(i))
             } else {
                 Motion::Held
             };

@@ -91,6 +91,7 @@ pub struct RigidBody {
 
 impl RigidBody {
     /// The arm at `pose`, with a point mass `payload` (kg) at the pad.
+    #[inline(always)]
     pub fn at(pose: &Pose, lengths: &Lengths, masses: &Masses, payload: f64) -> Self {
         let gravity = pose.in_yaw_frame(&Vector3::from(masses.gravity));
         let [one, two, three] = &masses.links;

@@ -38,24 +38,47 @@ impl Rubbing<'_> {
     #[inline(always)]
     pub(crate) fn friction(&self, w: &Vector3<f64>) -> [Vector3<f64>; 2] {
         match self.pushes {
-            [true, true] => self.in_the_corner(w),
-            [table, wall] => [(0, table), (1, wall)].map(|(k, pushes)| {
-                if pushes {
-                    self.of(k, w)
+            [false, false] => [Vector3::zeros(); 2],
+            [true, true] => {
+                // Taken apart, so that what one surface answers need not lie in memory where this comes back.
+                let [table, wall] = in_the_corner(self.problem, self.S, *w);
+                [
+                    Vector3::new(table.x, table.y, table.z),
+                    Vector3::new(wall.x, wall.y, wall.z),
+                ]
+            }
+            [table, _] => {
+                let slip = if table {
+                    self.slip(0, w)
                 } else {
-                    Vector3::zeros()
+                    self.slip(1, w)
+                };
+                let t = slip.friction();
+                if table {
+                    [Vector3::new(t.x, t.y, 0.0), Vector3::zeros()]
+                } else {
+                    [Vector3::zeros(), Vector3::new(0.0, t.x, t.y)]
                 }
-            }),
+            }
         }
     }
 
     /// Friction of surface `k` alone.
-    #[inline(always)]
     fn of(&self, k: usize, w: &Vector3<f64>) -> Vector3<f64> {
+        let [i, j] = PLANES[k];
+        let t = self.slip(k, w).friction();
+        let mut friction = Vector3::zeros();
+        (friction[i], friction[j]) = (t.x, t.y);
+        friction
+    }
+
+    /// The pad on surface `k`.
+    #[inline(always)]
+    fn slip(&self, k: usize, w: &Vector3<f64>) -> Slip {
         let ([i, j], facing) = (PLANES[k], FACINGS[k]);
         let (contact, normal) = (&self.problem.contacts[k], facing.axis());
         let stiff = contact.kappa_dt * facing.sign();
-        let t = Slip {
+        Slip {
             S: Matrix2::new(
                 self.S[(i, i)],
                 self.S[(i, j)],
@@ -67,15 +90,10 @@ impl Rubbing<'_> {
             c: Vector2::new(self.S[(normal, i)], self.S[(normal, j)]) * stiff,
             mu: contact.mu,
         }
-        .friction();
-        let mut friction = Vector3::zeros();
-        (friction[i], friction[j]) = (t.x, t.y);
-        friction
     }
 
     /// Both: they hold the pad together, or one of them holds it in its plane, or it slides on both.
-    #[inline(never)]
-    fn in_the_corner(&self, w: &Vector3<f64>) -> [Vector3<f64>; 2] {
+    fn of_both(&self, w: &Vector3<f64>) -> [Vector3<f64>; 2] {
         if let Some(held) = self.held(&hold(self.S, -w, [true; 3])) {
             return held;
         }
@@ -227,6 +245,14 @@ impl Rubbing<'_> {
         }
         (held, yields)
     }
+}
+
+/// [`Rubbing::of_both`] for a pad in the corner, by value: so that nothing of a pad elsewhere has to lie in memory.
+#[cold]
+#[inline(never)]
+fn in_the_corner(problem: &Problem, S: Matrix3<f64>, w: Vector3<f64>) -> [Vector3<f64>; 2] {
+    let pushes = [true; 2];
+    Rubbing { problem, pushes, S }.of_both(&w)
 }
 
 /// Mobility that is left when the `axes` are held: S − S_h S_hh⁻¹ S_hᵀ.

@@ -6,6 +6,7 @@
 
 use super::gauss_seidel;
 use super::guess::{Guess, Motion};
+use super::order::{least, most};
 use super::problem::{Path, Problem, Solution};
 use super::revision::Check;
 
@@ -18,36 +19,37 @@ const SINGLY: u32 = 30;
 pub fn solve(problem: &Problem, guess: &mut Guess) -> Solution {
     let check = Check::of(problem);
     for round in 0..TOGETHER + SINGLY {
-        let solution = guess.solve(problem);
+        let mut solution = guess.solve(problem);
         if !check.revise(&solution, guess, round >= TOGETHER) {
-            let path = if round == 0 {
-                Path::Guessed
-            } else {
-                Path::Revised(round)
-            };
-            return settled(problem, solution, guess, path);
+            if round > 0 {
+                solution.path = Path::Revised(round);
+            }
+            settle(problem, &mut solution, guess);
+            return solution;
         }
     }
     let swept = gauss_seidel::solve(problem, gauss_seidel::SWEEPS);
     *guess = check.seen(&swept);
-    let solution = guess.solve(problem);
+    let mut solution = guess.solve(problem);
     if check.revise(&solution, &mut guess.clone(), false) {
         return swept; // as good as it got
     }
-    settled(problem, solution, guess, swept.path)
+    solution.path = swept.path;
+    settle(problem, &mut solution, guess);
+    solution
 }
 
 /// Removes what rounding left: no sliding against its sense, no force beyond what its law allows; friction on the surfaces
 /// keeps to it already.
-fn settled(problem: &Problem, mut solution: Solution, guess: &Guess, path: Path) -> Solution {
+fn settle(problem: &Problem, solution: &mut Solution, guess: &Guess) {
     for (i, joint) in problem.joints.iter().enumerate() {
         let (v, impulse) = (&mut solution.v[i], &mut solution.joint[i]);
         match guess.joint[i] {
             Motion::Forward => *v = v.max(0.0).min(joint.high),
             Motion::Backward => *v = v.min(0.0).max(joint.low),
-            Motion::Held => *impulse = impulse.max(joint.least()).min(joint.most()),
-            Motion::High => *impulse = impulse.min(-joint.against[0]),
-            Motion::Low => *impulse = impulse.max(joint.against[1]),
+            Motion::Held => *impulse = least(most(*impulse, joint.least()), joint.most()),
+            Motion::High => *impulse = least(*impulse, -joint.against[0]),
+            Motion::Low => *impulse = most(*impulse, joint.against[1]),
         }
     }
     if guess.touches() {
@@ -55,5 +57,4 @@ fn settled(problem: &Problem, mut solution: Solution, guess: &Guess, path: Path)
             *n = n.max(0.0);
         }
     }
-    Solution { path, ..solution }
 }

@@ -106,8 +106,8 @@ impl Configuration {
 
     /// Follows the arm to `state`: as [`Configuration::of`], without a copy of the whole.
     pub(crate) fn follow(&mut self, parameters: &Parameters, state: &State) {
-        let pose = Pose::at(&state.q);
-        self.place = Place::of(parameters, pose);
-        self.body = parameters.body(&pose, state.attached);
+        let Self { place, body } = self;
+        *place = Place::of(parameters, Pose::at(&state.q));
+        parameters.weigh(body, &place.pose, state.attached);
     }
 }

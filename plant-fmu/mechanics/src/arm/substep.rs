@@ -4,8 +4,9 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::drive::Drive;
 use super::floored;
-use super::flow::{Flow, Taken};
+use super::flow::{Flow, Left, Taken};
 use super::kinematics::Pose;
+use super::order::{least, most};
 use super::parameters::Parameters;
 use super::payload::Hold;
 use super::plant::Arm;
@@ -21,9 +22,22 @@ impl Parameters {
     }
 
     /// The rigid body at `pose`, with a held payload or without.
+    #[inline]
     pub(crate) fn body(&self, pose: &Pose, attached: bool) -> RigidBody {
         let payload = if attached { self.payload_m } else { 0.0 };
         RigidBody::at(pose, &self.lengths, &self.masses, payload)
+    }
+
+    /// The same, written into `body`: a copy would wait for what was just written.
+    #[inline(never)]
+    pub(crate) fn weigh(&self, body: &mut RigidBody, pose: &Pose, attached: bool) {
+        *body = self.body(pose, attached);
+    }
+
+    /// Deflections (m) to which table and wall relax from `s` within `dt` (s).
+    fn relaxed(&self, s: &[f64; 2], dt: f64) -> [f64; 2] {
+        let surfaces = self.surfaces();
+        [0, 1].map(|k| surfaces[k].wall().relaxed(s[k], dt))
     }
 
     /// Viscous friction of the joints (N·m·s/rad).
@@ -47,16 +61,34 @@ pub fn problem(
     inputs: &Inputs,
     dt: f64,
 ) -> Problem {
+    let relaxed = parameters.relaxed(&state.s, dt);
+    put_together(parameters, state, place, body, tau, inputs, &relaxed, dt)
+}
+
+/// The same with the deflections to which the surfaces relax (m).
+#[inline(always)]
+#[allow(
+    clippy::too_many_arguments,
+    reason = "the terms of one equation, each by its name"
+)]
+fn put_together(
+    parameters: &Parameters,
+    state: &State,
+    place: &Place,
+    body: &RigidBody,
+    tau: &Vector3<f64>,
+    inputs: &Inputs,
+    relaxed: &[f64; 2],
+    dt: f64,
+) -> Problem {
     let State { q, dq, .. } = state;
     let (f_h, f_d) = (Vector3::from(inputs.f_h), Vector3::from(inputs.f_d));
     let torque =
         tau + place.handle.J.tr_mul(&f_h) + place.pad.J.tr_mul(&f_d) - body.C(dq) * dq - body.g;
     let contact = |k: usize| {
         let (facing, surface) = (FACINGS[k], parameters.surfaces()[k]);
-        let wall = surface.wall();
-        let kappa = wall.impedance(dt);
-        let beyond =
-            surface.penetration(facing, place.pad.p[facing.axis()]) - wall.relaxed(state.s[k], dt);
+        let kappa = surface.wall().impedance(dt);
+        let beyond = surface.penetration(facing, place.pad.p[facing.axis()]) - relaxed[k];
         Contact {
             push: kappa * beyond,
             kappa_dt: kappa * dt,
@@ -83,6 +115,8 @@ pub(crate) struct Equation<'a> {
     /// Torques at the joints (N·m).
     tau: Vector3<f64>,
     pub(crate) problem: Problem,
+    /// Deflections to which the surfaces relax (m).
+    relaxed: [f64; 2],
     dt: f64,
 }
 
@@ -104,10 +138,12 @@ impl Arm {
             ..
         } = self;
         let tau = drive.step(&state.tau, &Vector3::from(inputs.tau_a));
+        let relaxed = parameters.relaxed(&state.s, dt);
         Equation {
             inputs,
             tau,
-            problem: problem(parameters, state, place, body, &tau, inputs, dt),
+            problem: put_together(parameters, state, place, body, &tau, inputs, &relaxed, dt),
+            relaxed,
             dt,
         }
     }
@@ -119,6 +155,7 @@ impl Arm {
             inputs,
             tau,
             ref problem,
+            relaxed,
             dt,
         } = *equation;
         let Self {
@@ -127,32 +164,33 @@ impl Arm {
             configuration,
             ..
         } = self;
-        let (before, Configuration { place: from, body }) = (*state, *configuration);
-        *state = State {
-            q: before.q + solution.v * dt,
-            dq: solution.v.map(floored),
-            tau,
-            ..before
+        let v = solution.v.map(floored);
+        let Configuration { place: from, body } = &*configuration;
+        let left = Left::of(state, from, body, &v);
+        let w_before = if state.attached {
+            from.pad.J * state.dq
+        } else {
+            Vector3::zeros() // not used
         };
+        (state.q, state.dq, state.tau) = (left.q + solution.v * dt, v, tau);
         for (q, stops) in state.q.iter_mut().zip(&parameters.stops) {
-            *q = q.max(stops.min).min(stops.max); // not beyond a stop, not by rounding either
+            *q = least(most(*q, stops.min), stops.max); // not beyond a stop, not by rounding either
         }
-        if !identical(&state.q, &before.q) {
+        if !identical(&state.q, &left.q) {
             configuration.follow(parameters, state);
         }
         let to = &configuration.place;
         for (k, surface) in parameters.surfaces().iter().enumerate() {
             let penetration = surface.penetration(FACINGS[k], to.pad.p[FACINGS[k].axis()]);
-            state.s[k] = penetration.max(surface.wall().relaxed(before.s[k], dt));
+            state.s[k] = most(penetration, relaxed[k]);
         }
 
         let friction = Vector3::from_fn(|i, _| problem.joints[i].friction(solution.joint[i]));
         let flow = Taken {
             parameters,
-            body: &body,
             solution,
             friction: &friction,
-            before: (&before, &from),
+            left: &left,
             after: (state, to),
             dt,
         }
@@ -165,7 +203,7 @@ impl Arm {
             path: solution.path,
         };
         if state.attached {
-            let a = (to.pad.J * state.dq - from.pad.J * before.dq) / dt;
+            let a = (to.pad.J * state.dq - w_before) / dt;
             let (m, gravity) = (parameters.payload_m, &parameters.masses.gravity);
             self.shown.hold = Hold::of(m, &a, gravity, &self.shown.f_e);
         }
