@@ -13,6 +13,7 @@ import pytest
 
 from exo import sweep
 from exo.errors import ExoError
+from exo.runs import Outcome
 from exo.sweep import local, store
 from exo.sweep.chunks import Queue
 
@@ -171,3 +172,17 @@ def test_processes_that_cannot_begin_are_one_sentence(
     monkeypatch.setattr("exo.trial.check", lambda _archive: None)  # begins a process, too
     with pytest.raises(ExoError, match=r"--workers 2: no process begins: .*; expected fewer, or more memory"):
         sweep.sweep(study_file, out=tmp_path / "out", workers=2, fmu_dir=fmu_dir)
+
+
+def test_the_last_chunks_are_short_so_that_no_worker_waits_long_for_another_one() -> None:
+    """1,000 rows of 4 ms for two workers: half a second's worth at first, 20 ms' at the end, and every row once."""
+    queue, sizes, rows = Queue([{"K": float(i)} for i in range(1000)], ()), [], []
+    while len(queue):
+        chunk = queue.next(among=2)
+        queue.learn([store.Done(i, Outcome({}), 0.004) for i, _ in chunk])
+        sizes.append(len(chunk))
+        rows += [i for i, _ in chunk]
+    assert rows == list(range(1000))
+    assert max(sizes) == 125  # 0.5 s
+    assert max(sizes[-4:]) <= 5  # 20 ms
+    assert len(sizes) < 40  # a task costs a few ms

@@ -24,7 +24,7 @@ from numpy.typing import NDArray
 from exo import loop, profile
 from exo.errors import ExoError, FmuError, ScenarioError
 from exo.fmu import DTYPES, Archive, Instance, Kind, References, choices, unit_of
-from exo.loop import Engine, Part, Wire
+from exo.loop import Engine, Part, Wire, Work
 from exo.pace import Pace
 from exo.plan import Plan
 from exo.recording import Recording
@@ -100,6 +100,8 @@ class Coupled:
         self._plan = plan
         self._parts: dict[str, Part] = {}
         self._wires: list[Wire] = []
+        #: What the loop does with both; None, where buffers or wires have changed since.
+        self._work: list[Work] | None = None
         self._used = False
         self._next = 0
         self._parameters: dict[str, float | int | bool] = {}
@@ -147,12 +149,13 @@ class Coupled:
         if plan.steps != self._plan.steps:
             for part in self._parts.values():
                 part.resize(plan.steps)
+            self._work = None
         self._plan, self._used, self._next = plan, True, 0
         # Profiles stay in the buffers, wires lead to them.
         wired = (plan.steps, plan.step, plan.profiles, plan.coupling)
         if wired != self._wired:
             self._wires = _wire(plan, self._parts, self.time)
-            self._wired = wired
+            self._wired, self._work = wired, None
         _initialize(plan, self._parts, self._wires)
         self._parameters = {}
         for instance, refs, names, buffer in self._read:
@@ -170,8 +173,9 @@ class Coupled:
         """Makes the steps up to number `until`, or all that are left; with `pace` by the clock."""
         end = self._plan.steps if until is None else min(until, self._plan.steps)
         began = perf_counter(), thread_time()
-        parts = list(self._parts.values())
-        loop.run(parts, self._wires, first=self._next, steps=end, step=self._plan.step, engine=engine, pace=pace)
+        if self._work is None:
+            self._work = loop.work(list(self._parts.values()), self._wires)
+        loop.run(self._work, first=self._next, steps=end, step=self._plan.step, engine=engine, pace=pace)
         self._wall_time += perf_counter() - began[0]
         self._cpu_time += thread_time() - began[1]
         self._next = end
@@ -300,9 +304,12 @@ def _of_kind(values: NDArray[np.float64], kind: Kind) -> NDArray[Any]:
 
 
 def _initialize(plan: Plan, parts: dict[str, Part], wires: list[Wire]) -> None:
+    own: dict[str, dict[str, Value]] = {}
+    for key, value in plan.parameters.items():
+        component, variable = key.split(".", 1)
+        own.setdefault(component, {})[variable] = value
     for name, part in parts.items():
-        own = {key.split(".", 1)[1]: value for key, value in plan.parameters.items() if key.split(".", 1)[0] == name}
-        part.instance.set_starts(own)
+        part.instance.set_starts(own.get(name, {}))
         part.instance.setup_experiment(start_time=0.0, stop_time=plan.steps * plan.step)
         part.instance.enter_initialization_mode()
     # Outputs after initialization depend on parameters and, through one more FMU at most, on each other.

@@ -91,6 +91,9 @@ def columns(names: Iterable[str], *, owner: str) -> list[str]:
 
 def added(run: Recording, names: Iterable[str]) -> Recording:
     """The recording with these signals. An `ExoError` says which column or parameter a signal lacks."""
+    names = list(names)
+    if not names:
+        return run
     more: dict[str, Array] = {}
     units: dict[str, str] = {}
     for name in names:

@@ -206,6 +206,8 @@ class References:
         self.array: NDArray[np.uint32] = np.array([archive.variable(n).valueReference for n in names], dtype=np.uint32)
         self.address: int = self.array.ctypes.data
         self.count = len(names)
+        #: The same as C takes them, made once.
+        self.arguments = c_void_p(self.address), c_size_t(self.count)
 
     def __bool__(self) -> bool:
         return bool(self.names)
@@ -227,6 +229,8 @@ class Instance:
         self._fatal = False
         #: Each is looked up once: that takes as long as a dozen steps.
         self._functions: dict[str, Any] = {}
+        #: Start values by name as they were set last, with kind and number.
+        self._starts: dict[str, tuple[bool | int | float | str, Kind, float | int]] = {}
         self._callbacks = callbacks(self._environment)
         description = archive.description
         library = archive.library
@@ -358,7 +362,11 @@ class Instance:
         """The same of many, those of one kind in one call."""
         kinds: dict[Kind, dict[str, float | int]] = {}
         for name, value in values.items():
-            kind, number = self.archive.start_value(name, value)
+            known = self._starts.get(name)
+            # Of many runs most set the very same values: checked once.
+            if known is None or known[0] is not value:
+                known = self._starts[name] = (value, *self.archive.start_value(name, value))
+            _, kind, number = known
             kinds.setdefault(kind, {})[name] = number
         for kind, numbers in kinds.items():
             self.write(self.archive.references(tuple(numbers), kind), np.array([*numbers.values()], dtype=DTYPES[kind]))
@@ -372,8 +380,7 @@ class Instance:
         self._transfer(f"fmi2Get{references.kind}", references, values)
 
     def _transfer(self, function: str, references: References, values: NDArray[Any]) -> None:
-        address = c_void_p(values.ctypes.data)
-        self._call(function, c_void_p(references.address), c_size_t(references.count), address)
+        self._call(function, *references.arguments, c_void_p(values.ctypes.data))
 
     def text(self, name: str) -> str:
         """Current value of a String."""

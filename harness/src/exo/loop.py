@@ -10,6 +10,7 @@ Two engines make the same calls with the same values in the same order, so that 
 from collections.abc import Mapping
 from ctypes import c_double, c_int, c_size_t, c_void_p, cast
 from dataclasses import dataclass
+from functools import cached_property
 from importlib import import_module
 from time import perf_counter
 from typing import Any, Literal, get_args
@@ -120,8 +121,8 @@ class _Call:
 
 
 @dataclass(frozen=True)
-class _Work:
-    """What the loop does with a component in a step."""
+class Work:
+    """What the loop does with a component in a step; holds as long as the part's buffers and wires are the same."""
 
     part: Part
     wires: list[Wire]
@@ -129,10 +130,19 @@ class _Work:
     do_step: Any
     reads: list[_Call]
 
+    @cached_property
+    def addresses(self) -> tuple[Any, ...]:
+        """For the native engine: `fmi2DoStep`, copies, writes, reads as numbers."""
+        return _addresses(self)
+
+
+def work(parts: list[Part], wires: list[Wire]) -> list[Work]:
+    """What the loop does in a step, component by component."""
+    return [_work(part, [wire for wire in wires if wire.target is part]) for part in parts]
+
 
 def run(
-    parts: list[Part],
-    wires: list[Wire],
+    all_work: list[Work],
     *,
     steps: int,
     step: float,
@@ -144,11 +154,10 @@ def run(
 
     FmuError names component, function and time of a call that fails.
     """
-    work = [_work(part, [wire for wire in wires if wire.target is part]) for part in parts]
     if engine == "native":
-        _run_native(work, first, steps, step, pace)
+        _run_native(all_work, first, steps, step, pace)
     else:
-        _run(work, first, steps, step, pace)
+        _run(all_work, first, steps, step, pace)
 
 
 def named(name: str) -> Engine:
@@ -193,7 +202,7 @@ def native() -> Any:
     return module
 
 
-def _run(all_work: list[_Work], first: int, steps: int, step: float, pace: Pace | None) -> None:
+def _run(all_work: list[Work], first: int, steps: int, step: float, pace: Pace | None) -> None:
     """The loop by ctypes.
 
     The C functions have no argument types here: a call with finished ctypes objects takes a third of the time of one
@@ -225,11 +234,11 @@ def _run(all_work: list[_Work], first: int, steps: int, step: float, pace: Pace 
             pace.ends(k)
 
 
-def _run_native(all_work: list[_Work], first: int, steps: int, step: float, pace: Pace | None) -> None:
+def _run_native(all_work: list[Work], first: int, steps: int, step: float, pace: Pace | None) -> None:
     """The loop in machine code: addresses go there, a failed call comes back."""
-    failed = native().run(
-        [_addresses(work) for work in all_work], first=first, steps=steps, step=step, pace=pace and pace.addresses
-    )
+    # The instance is asked for each time: one that refuses a reset is made anew.
+    components = [(work.part.instance.component, *work.addresses) for work in all_work]
+    failed = native().run(components, first=first, steps=steps, step=step, pace=pace and pace.addresses)
     if failed is None:
         return
     component, what, number, status, k = failed
@@ -243,10 +252,10 @@ def _located(error: ExoError, t: float) -> ExoError:
     return FmuError(f"{error} (step at t = {t:.6g} s)")
 
 
-def _work(part: Part, wires: list[Wire]) -> _Work:
+def _work(part: Part, wires: list[Wire]) -> Work:
     writes = [_call(part.instance, "Set", part.inputs[kind], u, first_row=0) for kind, u in part.u.items()]
     reads = [_call(part.instance, "Get", part.outputs[kind], y, first_row=1) for kind, y in part.y.items()]
-    return _Work(part, wires, writes, part.instance.function("fmi2DoStep"), reads)
+    return Work(part, wires, writes, part.instance.function("fmi2DoStep"), reads)
 
 
 def _call(instance: Instance, prefix: str, references: References, buffer: NDArray[Any], *, first_row: int) -> _Call:
@@ -255,7 +264,7 @@ def _call(instance: Instance, prefix: str, references: References, buffer: NDArr
     return _Call(name, instance.function(name), references, buffer.ctypes.data + first_row * size, size)
 
 
-def _for_ctypes(work: _Work) -> tuple[Any, ...]:
+def _for_ctypes(work: Work) -> tuple[Any, ...]:
     """Flat views for the copies, and ctypes objects for the calls."""
     copies: list[tuple[Any, ...]] = []
     negatives: list[tuple[Any, ...]] = []
@@ -276,8 +285,7 @@ def _objects(call: _Call) -> tuple[Any, ...]:
     return call.name, call.function, *addresses, call.base, call.size
 
 
-def _addresses(work: _Work) -> tuple[Any, ...]:
-    """The same as numbers."""
+def _addresses(work: Work) -> tuple[Any, ...]:
     copies = []
     for wire in work.wires:
         target, source = wire.target.u[wire.kind], wire.source.y[wire.kind]
@@ -288,7 +296,7 @@ def _addresses(work: _Work) -> tuple[Any, ...]:
         [(_address(c.function), c.references.address, c.references.count, c.base, c.size) for c in calls]
         for calls in (work.writes, work.reads)
     )
-    return work.part.instance.component, _address(work.do_step), copies, writes, reads
+    return _address(work.do_step), copies, writes, reads
 
 
 def _address(function: Any) -> int:

@@ -1,4 +1,8 @@
-"""Which rows go to a worker at once: few while nobody knows how long one takes, then about half a second's worth."""
+"""Which rows go to a worker at once: few while nobody knows how long one takes, then about half a second's worth.
+
+Towards the end they become fewer again, so that all workers end at about the same time: a last chunk of half a second
+is time in which every other worker has nothing to do.
+"""
 
 from collections.abc import Iterable, Mapping, Sequence
 
@@ -8,7 +12,9 @@ from exo.sweep.work import Chunk
 
 #: What a chunk should take (s): long beside what a task costs, short beside what a kill may lose.
 WANTED_S = 0.5
-LARGEST = 256
+LARGEST = 2048
+#: Shortest chunk of the last ones (s): it still is long beside what a task costs, on a cluster, too.
+SHORTEST_S = 0.02
 
 
 class Queue:
@@ -29,15 +35,17 @@ class Queue:
     def __len__(self) -> int:
         return len(self._waiting) + len(self._suspects)
 
-    def next(self) -> Chunk:
-        """The next rows, none when none are left."""
+    def next(self, among: int = 1) -> Chunk:
+        """The next rows, none when none are left; `among` is how many workers share them."""
         self._alone = bool(self._suspects)
         if self._alone:
             i = self._suspects.pop()
             return [(i, self._rows[i])]
         size = 1
         if self._counted:
-            size = max(1, min(LARGEST, round(WANTED_S * self._counted / max(self._seconds, 1e-9))))
+            a_second = self._counted / max(self._seconds, 1e-9)
+            share = max(len(self._waiting) / (2 * among), SHORTEST_S * a_second)
+            size = max(1, min(LARGEST, round(min(WANTED_S * a_second, share))))
         taken = [self._waiting.pop() for _ in range(min(size, len(self._waiting)))]
         return [(i, self._rows[i]) for i in taken]
 

@@ -155,7 +155,7 @@ def _all(client: Any, task: Task, queue: Queue, running: dict[Any, Chunk], sent:
     while len(queue) or running:
         threads = max(1, sum(client.nthreads().values()))
         while queue.admits(len(running), most=AHEAD * threads):
-            chunk = queue.next()
+            chunk = queue.next(among=threads)
             try:
                 future = client.submit(run_chunk_apart, task, list(chunk), sent, pure=False, retries=3)
             except BaseException:

@@ -8,7 +8,7 @@ import threading
 from collections.abc import Iterator
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from types import ModuleType
 from typing import Any
 
@@ -99,20 +99,29 @@ def _until_broken(
     pool: ProcessPoolExecutor, task: Task, queue: Queue, running: dict[Future[Kept], Chunk], workers: int
 ) -> Iterator[Kept]:
     while len(queue) or running:
-        # One more than work: no worker waits for this process.
-        while queue.admits(len(running), most=workers + 1):
-            chunk = queue.next()
-            try:
-                running[pool.submit(run_chunk, task, chunk)] = chunk
-            except BrokenProcessPool:
-                queue.wait_again(chunk)
-                raise
+        _fill(pool, task, queue, running, workers)
         ended, _ = wait(running, return_when=FIRST_COMPLETED)
         for future in ended:
             names, done = future.result()
             del running[future]
             queue.learn(done)
+            # Before the rows are kept: no worker waits for that. A pool that is broken is told when they are.
+            with suppress(BrokenProcessPool):
+                _fill(pool, task, queue, running, workers)
             yield names, done
+
+
+def _fill(
+    pool: ProcessPoolExecutor, task: Task, queue: Queue, running: dict[Future[Kept], Chunk], workers: int
+) -> None:
+    """Sends chunks until each worker has one and another one waits."""
+    while queue.admits(len(running), most=workers + 1):
+        chunk = queue.next(among=workers)
+        try:
+            running[pool.submit(run_chunk, task, chunk)] = chunk
+        except BrokenProcessPool:
+            queue.wait_again(chunk)
+            raise
 
 
 def _end(pool: ProcessPoolExecutor) -> None:

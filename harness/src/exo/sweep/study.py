@@ -46,7 +46,7 @@ from scipy.stats import norm, qmc
 
 from exo import scenario as scenarios
 from exo.errors import ExoError, close_matches
-from exo.runs import unlike
+from exo.rows import unlike
 from exo.scenario import Data, Identifier, Line, Positive, Scenario, Value
 
 #: Runs of one study: their table is in memory.
