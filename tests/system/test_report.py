@@ -17,7 +17,7 @@ from exo.scenario import Scenario, built_in, load
 from exo.selection import narrowed
 
 from commands import SHORT, exo
-from pages import Page
+from pages import Page, said
 
 SCENARIO = "gain_study"
 #: What the whole `exo reproduce` may take, and how many scenarios it has to share that among.
@@ -308,6 +308,37 @@ def test_a_signal_that_is_nowhere_finite_leaves_a_gap_and_no_traceback(tmp_path:
     head = Page(out / "report.html").head("short")
     assert head["series"] == []
     assert head["figures"][0]["panels"][0]["curves"] == []
+
+
+def test_a_gap_within_a_signal_is_one_point_that_is_no_number(tmp_path: Path, fmu_dir: Path) -> None:
+    path, out = tmp_path / "short.toml", tmp_path / "out"
+    path.write_text(SHORT, encoding="utf-8")
+    exo("run", path, "--fmu-dir", fmu_dir, "--out", out)
+    file = out / "short" / "figures" / "q.parquet"
+    table = pq.read_table(file)
+    values = table.column(1).to_numpy().copy()
+    values[:3], values[200:300], values[350] = np.nan, np.nan, np.inf
+    pq.write_table(table.set_column(1, table.schema.field(1), [values]), file)
+    assert exo("report", "--out", out).exit_code == 0
+    ((_, time, shown),) = Page(out / "report.html").signals("short")
+    assert time[np.isnan(shown)] == pytest.approx([200 * 0.002, 350 * 0.002])
+    assert {k for k in np.round(time / 0.002).astype(int)} >= {3, 199, 300, 349, 351, 499}
+    k = np.round(time[~np.isnan(shown)] / 0.002).astype(int)
+    assert np.array_equal(shown[~np.isnan(shown)], values[k].astype(np.float32))
+
+
+def test_the_first_screen_names_what_fails_and_counts_what_is_there(tmp_path: Path, fmu_dir: Path) -> None:
+    path, out = tmp_path / "short.toml", tmp_path / "out"
+    path.write_text(SHORT.replace("at_least = 0.1", "at_least = 100.0"), encoding="utf-8")
+    exo("run", path, "--fmu-dir", fmu_dir, "--out", out)
+    exo("report", "--out", out)
+    page = Page(out / "report.html")
+    failed = [said(one) for one in page.root.xpath('//ul[@class="failed"]/li')]
+    assert len(failed) == 1
+    assert failed[0].startswith("short how far it moved moved/push: ")
+    assert failed[0].endswith("m, expected ≥ 100")
+    assert "1 experiment, 1 run, 1 s simulated." in said(page.root.xpath('//section[contains(@class, "first")]')[0])
+    assert "coupled by fmpy." in said(page.root.xpath("//footer")[0])
 
 
 @pytest.mark.parametrize("name", built_in())

@@ -5,6 +5,8 @@ from collections.abc import Iterator
 from importlib import resources
 from pathlib import Path
 
+import numpy as np
+import pyarrow.parquet as pq
 import pytest
 from playwright.sync_api import Browser, Locator, Page
 
@@ -13,6 +15,7 @@ from exo.scenario import load
 from exo.selection import narrowed
 
 from browser import chromium, shown, until
+from commands import SHORT, exo
 
 SCENARIOS = ("gain_study", "wall", "frequency_response")
 RELEASE = "#wall figure"
@@ -88,6 +91,55 @@ def test_filters_and_search_show_the_verdicts_that_they_name(browser: Browser, f
         assert all("release_delay/passive_bounded" in text for text in texts)
         page.fill("#search", "no such thing")
         assert seen.count() == 0
+
+
+def test_an_experiment_without_numbers_is_there_and_a_gap_is_no_line(
+    browser: Browser, tmp_path: Path, fmu_dir: Path
+) -> None:
+    path, out = tmp_path / "short.toml", tmp_path / "out"
+    before, _, after = SHORT.partition("[[metrics]]")
+    path.write_text(before + after[after.index("[[figures]]") :], encoding="utf-8")
+    exo("run", path, "--fmu-dir", fmu_dir, "--out", out)
+    drawn = out / "short" / "figures" / "q.parquet"
+    table = pq.read_table(drawn)
+    values = table.column(1).to_numpy().copy()
+    values[200:300] = np.nan
+    pq.write_table(table.set_column(1, table.schema.field(1), [values]), drawn)
+    exo("report", "--out", out)
+    with shown(browser, out / "report.html") as page:
+        assert "nothing is judged" in page.inner_text("h1")
+        assert page.inner_text("#short summary .badge") == "info"
+        plot = opened(page, "short").locator(".plot")
+        assert page.locator("#short .own-verdicts table").count() == 0
+
+        def inked(instant: float) -> bool:
+            """Whether the curve's colour stands anywhere above the instant (s)."""
+            return bool(
+                plot.locator("canvas").evaluate(
+                    """(canvas, share) => {
+                        const over = canvas.parentElement.querySelector(".u-over");
+                        const scale = canvas.width / canvas.clientWidth;
+                        const x = Math.round(scale * (over.offsetLeft + share * over.clientWidth));
+                        const height = Math.round(scale * (over.offsetTop + over.clientHeight));
+                        const { data } = canvas.getContext("2d").getImageData(x - 1, 0, 3, height);
+                        for (let k = 0; k < data.length; k += 4) {
+                            if (data[k + 3] > 60 && data[k + 2] - data[k] > 60) return true;
+                        }
+                        return false;
+                    }""",
+                    instant / 0.998,
+                )
+            )
+
+        until(page, lambda: inked(0.2))
+        assert inked(0.8)
+        assert not inked(0.5)
+        for key, value in (("0.2", True), ("0.5", False), ("0.8", True)):
+            page.locator("#short .timebar input").fill(key)
+            until(page, lambda key=key: told(plot)[0] == pytest.approx(float(key), abs=2e-3))
+            assert ("–" not in told(plot)[1]["q"]) == value
+        page.locator("#search").fill("nowhere to be found")
+        until(page, lambda: not page.locator("#short").is_visible())
 
 
 def test_a_section_is_drawn_when_it_is_opened_and_given_back_when_it_is_closed(browser: Browser, file: Path) -> None:

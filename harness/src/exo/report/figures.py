@@ -28,6 +28,8 @@ from exo.scenario import Bands, Figure
 
 #: Case and column.
 Key = tuple[str, str]
+#: So many gaps of a signal are shown.
+MOST_GAPS = 256
 NOT_BOUND = (-math.inf, math.inf)
 
 
@@ -48,8 +50,14 @@ class Signal:
 
     def thinned(self) -> "Signal":
         """With the points alone that show it."""
-        kept = thin.thin(self.time, self.values, self.windows)
-        return Signal(self.ticks[kept], self.values[kept], self.step, self.unit, self.windows)
+        gaps = np.flatnonzero(np.isnan(self.values))
+        kept = [gaps.astype(np.intp)]
+        # No line is drawn over a gap: what lies before it and behind it are thinned apart.
+        for start, end in zip(np.append(0, gaps + 1), np.append(gaps, len(self.values)), strict=True):
+            if end > start:
+                kept.append(thin.thin(self.time[start:end], self.values[start:end], self.windows) + start)
+        points = np.sort(np.concatenate(kept))
+        return Signal(self.ticks[points], self.values[points], self.step, self.unit, self.windows)
 
 
 def pack(folder: Path, figures: tuple[Figure, ...]) -> str:
@@ -79,7 +87,7 @@ def pack(folder: Path, figures: tuple[Figure, ...]) -> str:
 
 
 def _signals(folder: Path, figures: Iterable[Figure]) -> dict[Key, Signal]:
-    """Each signal once, however many panels show it; without what is no finite number."""
+    """Each signal once, however many panels show it. A gap, which is no finite number, is one NaN at its first tick."""
     found: dict[Key, Signal] = {}
     for figure in figures:
         if figure.kind != "panels":
@@ -99,15 +107,27 @@ def _signals(folder: Path, figures: Iterable[Figure]) -> dict[Key, Signal]:
             there = np.isfinite(values)
             if key in found or not there.any():
                 continue
-            instants = time[there]
-            step = float(np.median(np.diff(instants))) if len(instants) > 1 else 1.0
-            ticks = np.round(instants / step).astype(np.int64)
-            found[key] = Signal(ticks, values[there], step, printed(said.get(b"unit", b"").decode()))
+            first, last = np.flatnonzero(there)[[0, -1]]
+            kept = there | _gaps(there)
+            kept[:first] = kept[last + 1 :] = False
+            step = float(np.median(np.diff(time[there]))) if last > first else 1.0
+            ticks = np.round(time[kept] / step).astype(np.int64)
+            shown = np.where(there, values, np.nan)[kept]
+            found[key] = Signal(ticks, shown, step, printed(said.get(b"unit", b"").decode()))
         for panel in figure.panels:
             window = thin.Window(*(panel.x_range or NOT_BOUND), *(panel.y_range or NOT_BOUND))
             for curve in panel.curves:
                 if (curve.case, curve.column) in found:
                     found[curve.case, curve.column].windows.append(window)
+    return found
+
+
+def _gaps(there: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """Where a gap begins; of many gaps the longest ones."""
+    edges = np.diff(there.astype(np.int8), prepend=1, append=1)
+    begin, end = np.flatnonzero(edges < 0), np.flatnonzero(edges > 0)
+    found = np.zeros(len(there), dtype=np.bool_)
+    found[begin[np.argsort(begin - end, kind="stable")[:MOST_GAPS]]] = True
     return found
 
 

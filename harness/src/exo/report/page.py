@@ -33,6 +33,9 @@ SCRIPTS = (
     "main.js",
 )
 
+#: What made the steps, as `metrics.json` names it, in the words of the page.
+ENGINES = {"fmpy": "fmpy", "native": "the native loop"}
+
 
 def write(*, out: Path, sections: Sequence[Section], against: Path | None) -> Path:
     """Writes `<out>/report.html`, as a whole. ExoError: a figure's data are missing."""
@@ -60,6 +63,7 @@ def render(*, sections: Sequence[Section], against: Path | None) -> str:
         printed=_printed(sections),
         counts={verdict: sum(one.counts[verdict] for one in sections) for verdict in VERDICTS},
         requirements=sum(row.is_requirement for one in sections for row in one.rows),
+        failed=[(one, row) for one in sections for row in one.rows if row.verdict == "fail"],
         changed=sum(one.changed for one in sections),
         compared=any(one.before for one in sections),
         against=against,
@@ -67,6 +71,7 @@ def render(*, sections: Sequence[Section], against: Path | None) -> str:
         cases=sum(len(one.run["cases"]) for one in sections),
         made=datetime.now(UTC).strftime("%Y-%m-%d %H:%M UTC"),
         version=__version__,
+        engines=" and ".join(sorted({ENGINES[one.run["engine"]] for one in sections})),
         story=story.tell(sections),
         packs={one.id: figures.pack(one.folder, one.scenario.figures) for one in sections},
         scenes={name: packed.pack(scene, []) for name, scene in drawn.items() if scene is not None},

@@ -36,6 +36,8 @@ function startExperiment(element) {
 }
 
 function ownVerdicts(place, id) {
+  const table = verdictsOf(id);
+  if (!table.tBodies[0].rows.length) return;
   const title = document.createElement("h4");
   title.textContent = "Verdicts";
   const box = document.createElement("div");
@@ -43,7 +45,7 @@ function ownVerdicts(place, id) {
   box.tabIndex = 0;
   box.setAttribute("role", "region");
   box.setAttribute("aria-label", `Verdicts of ${id}`);
-  box.append(verdictsOf(id));
+  box.append(table);
   place.append(title, box);
 }
 

@@ -1,8 +1,11 @@
 // One pair of axes, drawn by uPlot: curves, marks and bands over the time.
 
-/** Instants of all curves, and each curve over them; null where a curve has no point. */
+/** Instants of all curves, and each curve over them; undefined where a curve has no point, null where it has a gap. */
 function joined(panel, signals) {
-  const tables = panel.curves.map((curve) => [signals[curve.s].time, signals[curve.s].values]);
+  const tables = panel.curves.map((curve) => [
+    signals[curve.s].time,
+    Array.from(signals[curve.s].values, (value) => (Number.isNaN(value) ? null : value)),
+  ]);
   return tables.length ? uPlot.join(tables) : [[], []];
 }
 
@@ -34,8 +37,10 @@ function drawBands(u, panel, signals) {
   for (let first = 0, k = 1; k <= time.length; k++) {
     if (k <= end && values[k] === values[first]) continue;
     const from = place(time[first]);
-    u.ctx.fillStyle = bandColor(panel.bands, Math.round(values[first]));
-    u.ctx.fillRect(from, top, place(time[Math.min(k, end)]) - from, height);
+    if (!Number.isNaN(values[first])) {
+      u.ctx.fillStyle = bandColor(panel.bands, Math.round(values[first]));
+      u.ctx.fillRect(from, top, place(time[Math.min(k, end)]) - from, height);
+    }
     first = k;
   }
 }
@@ -90,7 +95,6 @@ function optionsOf(panel, signals, view, size) {
         stroke: () => shownColor(curve.color),
         dash: dashOf(curve),
         width: curve.dash.length ? 1.5 : 1.8,
-        spanGaps: true,
         points: { show: false },
       })),
     ],

@@ -1,6 +1,6 @@
 // The signals of an experiment: instants and values of the points that are kept.
 
-/** Signals from the head's facts and the body's blocks: {time, values, unit, case, column}. */
+/** Signals from the head's facts and the body's blocks: {time, values, unit, case, column}. A gap is a NaN. */
 function signalsOf(head, body) {
   return head.series.map((facts) => {
     const ticks = body.ticks(facts.n);
@@ -50,6 +50,7 @@ function extremesOf(signal, from, to) {
     }
   }
   for (let k = pointBefore(signal, from) + 1; k < signal.time.length && signal.time[k] <= to; k++) {
+    if (Number.isNaN(signal.values[k])) continue;
     low = Math.min(low, signal.values[k]);
     high = Math.max(high, signal.values[k]);
   }

@@ -1,4 +1,5 @@
-// Filter and search over all verdicts; experiments without a row that is shown are hidden with them.
+// Filter and search over all verdicts; experiments without a row that is shown are hidden with them. One that has no
+// numbers at all is shown where no filter asks for numbers.
 
 const FILTERS = {
   all: () => true,
@@ -43,7 +44,7 @@ function startVerdicts() {
         with_.add(one.of);
       }
     }
-    for (const one of experiments) one.hidden = !with_.has(one.id);
+    for (const one of experiments) one.hidden = !with_.has(one.id) && (filter !== "all" || !has(about.get(one.id), words));
     for (const group of document.querySelectorAll("h3.group")) {
       let next = group.nextElementSibling;
       let any = false;
