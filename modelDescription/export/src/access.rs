@@ -65,21 +65,30 @@ fn real_objection(
     Some(out_of_range(value, unit, range))
 }
 
+/// A unit behind its number; nothing behind one without a dimension.
+pub(crate) fn behind(unit: &str) -> String {
+    match unit {
+        "1" => String::new(),
+        unit => format!(" {unit}"),
+    }
+}
+
 #[cold]
 fn beyond_single(value: f64, unit: &str) -> String {
     let largest = f32::MAX;
     format!(
-        "= {value:?} {unit}, expected at most {largest:?} in magnitude, as single precision holds"
+        "= {value:?}{}, expected at most {largest:?} in magnitude, as single precision holds",
+        behind(unit)
     )
 }
 
 #[cold]
 fn out_of_range(value: f64, unit: &str, range: &Range) -> String {
-    let Range { low, high, .. } = range;
+    let (Range { low, high, .. }, unit) = (range, behind(unit));
     if value.is_finite() {
-        format!("= {value} {unit}, expected a value from {low} to {high}")
+        format!("= {value}{unit}, expected a value from {low} to {high}")
     } else {
-        format!("= {value} {unit}, expected a finite value")
+        format!("= {value}{unit}, expected a finite value")
     }
 }
 

@@ -4,6 +4,7 @@ use crate::failure::{Failure, Outcome};
 use crate::ffi::{Component, Status};
 use crate::instance::Instance;
 use crate::legality::{Call, Interface};
+use crate::log::Log;
 use crate::model::Model;
 use std::cell::RefCell;
 use std::fmt::Write as _;
@@ -49,6 +50,19 @@ pub unsafe fn guard<M: Model, F: Call>(
         Ok(()) => Status::Ok,
         Err(failure) => failed(instance, function, failure),
     }
+}
+
+/// What `make` makes of a model before there is an instance to mark; none where it fails or panics, and the log says why, under
+/// the name of the `function`.
+pub(crate) fn made<T>(
+    function: &str,
+    log: &mut Log<'_>,
+    make: impl FnOnce() -> Result<T, String>,
+) -> Option<T> {
+    catch_unwind(AssertUnwindSafe(make))
+        .unwrap_or_else(|_| Err(format!("panic in the model: {}", last_panic())))
+        .inspect_err(|reason| log.error(format_args!("{function}: {reason}")))
+        .ok()
 }
 
 /// Logs why a call failed, and marks an instance whose model broke.

@@ -1,7 +1,7 @@
 //! No NaN and no infinity may leave a model, but for NaN where a row says so (a sensor's failure); and no more bytes than a row
 //! says.
 
-use crate::access::Value as _;
+use crate::access::{Value as _, behind};
 use crate::model::Model;
 use fmu_declaration::place::Finite;
 use fmu_declaration::{Access, Place, Variable};
@@ -73,8 +73,8 @@ fn refused<M: Model>(model: &M) -> String {
             .find(|(_, value)| !meant(*value))?;
         let name = row.element_name(i);
         Some(format!(
-            "{name} = {value} {}, expected a finite value",
-            unit.name
+            "{name} = {value}{}, expected a finite value",
+            behind(unit.name)
         ))
     };
     M::DESCRIPTION

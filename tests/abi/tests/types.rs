@@ -387,17 +387,13 @@ fn a_number_beyond_a_small_type_is_refused_by_fmi_2_by_name_and_value() {
         refused(instance.set_integer(&reference(name), &[value]), said);
     }
     for (name, value, said) in [
-        ("gain", 2.1, "gain = 2.1 1, expected a value from -2 to 2"),
+        ("gain", 2.1, "gain = 2.1, expected a value from -2 to 2"),
         (
             "offset",
             1e39,
-            "offset = 1e39 1, expected at most 3.4028235e38 in magnitude, as single precision holds",
+            "offset = 1e39, expected at most 3.4028235e38 in magnitude, as single precision holds",
         ),
-        (
-            "offset",
-            f64::NAN,
-            "offset = NaN 1, expected a finite value",
-        ),
+        ("offset", f64::NAN, "offset = NaN, expected a finite value"),
     ] {
         refused(instance.set_real(&reference(name), &[value]), said);
     }

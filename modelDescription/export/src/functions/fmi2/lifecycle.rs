@@ -2,7 +2,7 @@
 
 use crate::ffi::fmi2::*;
 use crate::ffi::string;
-use crate::guard::{guard, install_panic_hook};
+use crate::guard::{guard, install_panic_hook, made};
 use crate::identity::Identity;
 use crate::instance::{Instance, instance_name};
 use crate::legality::Interface;
@@ -37,8 +37,10 @@ pub unsafe fn instantiate<M: Model>(
             return std::ptr::null_mut();
         };
         let (enabled, label) = (Enabled::all(logging != 0), instance_name(name));
-        let Ok(own) = Identity::of::<M>() else {
-            return std::ptr::null_mut(); // a model that cannot be serialized: no test lets it be built
+        let sink = Sink::Fmi2(*callbacks);
+        let mut log = Log::new(&sink, &label, enabled);
+        let Some(own) = made("fmi2Instantiate", &mut log, Identity::of::<M>) else {
+            return std::ptr::null_mut();
         };
         let own = own.guid();
         let objection = if name.is_none_or(str::is_empty) {
@@ -53,8 +55,6 @@ pub unsafe fn instantiate<M: Model>(
         } else {
             None
         };
-        let sink = Sink::Fmi2(*callbacks);
-        let mut log = Log::new(&sink, &label, enabled);
         if let Some(objection) = objection {
             log.error(format_args!("fmi2Instantiate: {objection}"));
             return std::ptr::null_mut();
@@ -64,14 +64,12 @@ pub unsafe fn instantiate<M: Model>(
             log.warning(format_args!("fmi2Instantiate: {reason}; ignored"));
         }
         let resources = resources.ok().flatten();
-        Box::into_raw(Box::new(Instance::<M>::new(
-            sink,
-            label,
-            enabled,
-            resources,
-            Interface::Fmi2,
-        )))
-        .cast()
+        let name = label.clone();
+        let new = || Instance::<M>::new(sink, name, enabled, resources, Interface::Fmi2);
+        made("fmi2Instantiate", &mut log, || Ok(Box::new(new())))
+            .map_or(std::ptr::null_mut(), |instance| {
+                Box::into_raw(instance).cast()
+            })
     }))
     .unwrap_or(std::ptr::null_mut())
 }

@@ -2,7 +2,7 @@
 
 use crate::ffi::fmi3::*;
 use crate::ffi::string;
-use crate::guard::{guard, install_panic_hook};
+use crate::guard::{guard, install_panic_hook, made};
 use crate::identity::Identity;
 use crate::instance::{Instance, instance_name};
 use crate::legality::Interface;
@@ -102,8 +102,8 @@ unsafe fn instantiate<M: Model>(
         let enabled = Enabled::all(common.logging != 0);
         let sink = Sink::Fmi3(common.logger);
         let mut log = Log::new(&sink, &label, enabled);
-        let Ok(own) = Identity::of::<M>() else {
-            return std::ptr::null_mut(); // a model that cannot be serialized: no test lets it be built
+        let Some(own) = made(function, &mut log, Identity::of::<M>) else {
+            return std::ptr::null_mut();
         };
         let own = own.guid();
         let objection = if name.is_none_or(|name| name.trim().is_empty()) {
@@ -129,10 +129,11 @@ unsafe fn instantiate<M: Model>(
             }
             path => path.map(folder),
         };
-        Box::into_raw(Box::new(Instance::<M>::new(
-            sink, label, enabled, resources, interface,
-        )))
-        .cast()
+        let name = label.clone();
+        let new = || Instance::<M>::new(sink, name, enabled, resources, interface);
+        made(function, &mut log, || Ok(Box::new(new()))).map_or(std::ptr::null_mut(), |instance| {
+            Box::into_raw(instance).cast()
+        })
     }))
     .unwrap_or(std::ptr::null_mut())
 }
@@ -159,5 +160,81 @@ pub unsafe fn enter_initialization_mode<M: Model>(
             instance.setup_experiment(tolerance, start_time, stop)?;
             instance.enter_initialization_mode()
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Refusal, Step};
+    use fmu_declaration::{Declare, Description, Experiment};
+    use std::ffi::{CStr, CString, c_int, c_void};
+    use std::path::Path;
+
+    /// A model that finds nothing where it is told to look.
+    #[derive(Clone, Default, serde::Serialize, serde::Deserialize)]
+    struct Lost;
+
+    impl Declare for Lost {
+        const DESCRIPTION: Description<Self> = Description {
+            name: "Lost",
+            about: "panics when it is located",
+            stepping: Stepping::Exact,
+            experiment: Experiment {
+                start: 0.0,
+                stop: 1.0,
+                tolerance: 1e-6,
+                step: 0.1,
+            },
+            variables: &[],
+        };
+    }
+
+    impl Model for Lost {
+        fn located(&mut self, _: Option<&Path>) {
+            panic!("no table to read");
+        }
+
+        fn initialize(&mut self, _: f64, _: &mut Log<'_>) -> Result<(), Refusal> {
+            Ok(())
+        }
+
+        fn step(&mut self, _: Step, _: &mut Log<'_>) -> Result<(), Refusal> {
+            Ok(())
+        }
+    }
+
+    unsafe extern "C" fn keep(
+        environment: *mut c_void,
+        _: c_int,
+        _: FmiString,
+        message: FmiString,
+    ) {
+        // SAFETY: the environment is the test's vector, the message a text that ends with 0.
+        unsafe {
+            let said = &mut *environment.cast::<Vec<String>>();
+            said.push(CStr::from_ptr(message).to_string_lossy().into_owned());
+        }
+    }
+
+    #[test]
+    fn a_model_that_panics_before_it_is_an_instance_is_no_instance_and_says_why() {
+        let token = CString::new(Lost::DESCRIPTION.guid()).expect("no zero in it");
+        let mut said: Vec<String> = Vec::new();
+        let common = Common {
+            name: c"lost".as_ptr(),
+            token: token.as_ptr(),
+            resources: std::ptr::null(),
+            logging: Boolean::default(),
+            logger: Logger {
+                log_message: Some(keep),
+                environment: (&raw mut said).cast(),
+            },
+        };
+        // SAFETY: pointers to texts that live, and to the vector that `keep` writes to.
+        let component = unsafe { instantiate_co_simulation::<Lost>(common, 0.into(), 0) };
+        assert!(component.is_null());
+        let expected = "fmi3InstantiateCoSimulation: panic in the model: no table to read at ";
+        assert!(said.len() == 1 && said[0].starts_with(expected), "{said:?}");
     }
 }
