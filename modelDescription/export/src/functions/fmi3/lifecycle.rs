@@ -225,14 +225,14 @@ mod tests {
             name: c"lost".as_ptr(),
             token: token.as_ptr(),
             resources: std::ptr::null(),
-            logging: Boolean::default(),
+            logging: 0,
             logger: Logger {
                 log_message: Some(keep),
                 environment: (&raw mut said).cast(),
             },
         };
         // SAFETY: pointers to texts that live, and to the vector that `keep` writes to.
-        let component = unsafe { instantiate_co_simulation::<Lost>(common, 0.into(), 0) };
+        let component = unsafe { instantiate_co_simulation::<Lost>(common, 0, 0) };
         assert!(component.is_null());
         let expected = "fmi3InstantiateCoSimulation: panic in the model: no table to read at ";
         assert!(said.len() == 1 && said[0].starts_with(expected), "{said:?}");
