@@ -205,7 +205,7 @@ def test_what_is_wrong_with_results_is_a_sentence(tmp_path: Path, fmu_dir: Path)
     exo("run", path, "--fmu-dir", fmu_dir, "--out", out)
     assert "no results of scenario shirt (close matches: short)" in refused("shirt", "--out", out)
     assert "no such folder" in refused("--out", out, "--against", tmp_path / "nowhere")
-    for name, damage, said in (
+    for name, damage, message in (
         ("figures/q.parquet", "x", "cannot be read"),
         ("figures/q.parquet", None, "missing"),
         ("manifest.json", "{}", "holds no scenario of this version"),
@@ -219,7 +219,7 @@ def test_what_is_wrong_with_results_is_a_sentence(tmp_path: Path, fmu_dir: Path)
         if damage is not None:
             file.write_text(damage, encoding="utf-8")
         answer = refused("--out", out)
-        assert said in answer
+        assert message in answer
         assert str(file) in answer
         file.unlink(missing_ok=True)
         if before is not None:
@@ -322,7 +322,7 @@ def test_a_gap_within_a_signal_is_one_point_that_is_no_number(tmp_path: Path, fm
     assert exo("report", "--out", out).exit_code == 0
     ((_, time, shown),) = Page(out / "report.html").signals("short")
     assert time[np.isnan(shown)] == pytest.approx([200 * 0.002, 350 * 0.002])
-    assert {k for k in np.round(time / 0.002).astype(int)} >= {3, 199, 300, 349, 351, 499}
+    assert set(np.round(time / 0.002).astype(int)) >= {3, 199, 300, 349, 351, 499}
     k = np.round(time[~np.isnan(shown)] / 0.002).astype(int)
     assert np.array_equal(shown[~np.isnan(shown)], values[k].astype(np.float32))
 
