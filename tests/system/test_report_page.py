@@ -414,3 +414,39 @@ def test_the_bus_tells_everyone_once_and_ends_with_its_subscription(browser: Bro
     assert heard["heard"][2:4] == [["a", 3, "b"], ["b", 3, "b"]]
     assert [one for one in heard["heard"][4:] if one[0] == "a"] == []
     assert heard["last"] == 3
+
+
+#: Records what is written on canvases, and where it begins (device px).
+HEARD = """
+window.heard = [];
+const draw = CanvasRenderingContext2D.prototype.fillText;
+CanvasRenderingContext2D.prototype.fillText = function (text, x, ...others) {
+    const width = this.measureText(text).width;
+    heard.push([text, x - { left: 0, start: 0, center: width / 2, right: width, end: width }[this.textAlign]]);
+    return draw.call(this, text, x, ...others);
+};
+"""
+
+
+@pytest.mark.parametrize("factor", [1.0, -1.5e7, 2.25e12, 1.25e-9, -1.25e30])
+def test_what_stands_beside_an_axis_is_not_cut_whatever_its_size(
+    factor: float, browser: Browser, tmp_path: Path, fmu_dir: Path
+) -> None:
+    path, out = tmp_path / "short.toml", tmp_path / "out"
+    path.write_text(SHORT, encoding="utf-8")
+    exo("run", path, "--fmu-dir", fmu_dir, "--out", out)
+    drawn = out / "short" / "figures" / "q.parquet"
+    table = pq.read_table(drawn)
+    values = table.column(1).to_numpy() * factor
+    pq.write_table(table.set_column(1, table.schema.field(1), [values]), drawn)
+    exo("report", "--out", out)
+    page = browser.new_page()
+    page.add_init_script(HEARD)
+    page.goto((out / "report.html").as_uri())
+    opened(page, "short")
+    heard = page.evaluate("heard")
+    page.close()
+    assert len(heard) > 8
+    assert [text for text, begin in heard if begin < 0.0] == []
+    beyond = max(abs(float(text.replace("−", "-"))) for text, _ in heard if text)
+    assert beyond >= 0.2 * np.abs(values).max()

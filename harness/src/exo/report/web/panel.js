@@ -9,6 +9,9 @@ function joined(panel, signals) {
   return tables.length ? uPlot.join(tables) : [[], []];
 }
 
+/** Room beside the ordinate for its marks, px: the same in all panels, so that their times lie one above the other. */
+const ORDINATE = 54;
+
 /** The range of the ordinate: the scenario's while all is shown, else that of what is seen. */
 function heights(panel, signals, view) {
   if (panel.yRange && !view.zoomed) return panel.yRange;
@@ -77,7 +80,11 @@ function optionsOf(panel, signals, view, size) {
     grid: { stroke: () => styleColor("--grid"), width: 1 },
     ticks: { stroke: () => styleColor("--grid"), width: 1, size: 4 },
     font: "11px system-ui, sans-serif",
-    values: (_, marks) => marks.map((mark) => (mark === null ? "" : written(mark))),
+    values: (_, marks) => {
+      // Sums of steps: what is left of them at zero is rounding.
+      const least = 1e-9 * Math.max(...marks.map(Math.abs));
+      return marks.map((mark) => (mark === null ? "" : marked(Math.abs(mark) < least ? 0 : mark)));
+    },
   });
   return {
     ...size,
@@ -100,7 +107,7 @@ function optionsOf(panel, signals, view, size) {
     ],
     axes: [
       { ...axis(), size: 24, space: 56 },
-      { ...axis(), size: 46, gap: 3, space: 28 },
+      { ...axis(), size: ORDINATE, gap: 3, space: 28 },
     ],
     cursor: {
       y: false,

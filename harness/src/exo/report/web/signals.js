@@ -65,6 +65,13 @@ function written(value) {
   return text.replace(/-/g, "−");
 }
 
+/** A number as it stands beside an axis: as short as it can be, since there is little room. */
+function marked(value) {
+  const size = Math.abs(value);
+  if (size === 0 || (size >= 1e-3 && size < 1e5)) return written(value);
+  return Number(value.toPrecision(3)).toExponential().replace("e+", "e").replace(/-/g, "−");
+}
+
 /** A number with its unit; what has no unit has unit 1. */
 function withUnit(value, unit) {
   return unit === "1" || unit === "" ? written(value) : `${written(value)} ${unit}`;
