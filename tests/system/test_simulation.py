@@ -36,9 +36,10 @@ def test_wired_inputs_are_set_before_initialization_ends(
 ) -> None:
     after: dict[str, dict[str, float]] = {}
 
-    def looked_at(parts: list[loop.Part], *_rest: Any, **_named: Any) -> None:
-        for part in parts:
-            after[part.instance.name] = part.instance.values(["q_n", "e_nr"] if part is parts[0] else ["q"])
+    def looked_at(works: list[loop.Work], *_rest: Any, **_named: Any) -> None:
+        for work in works:
+            instance = work.part.instance
+            after[instance.name] = instance.values(["q_n", "e_nr"] if work is works[0] else ["q"])
 
     monkeypatch.setattr(loop, "run", looked_at)
     start = job()

@@ -81,7 +81,7 @@ fn a_refused_parameter_is_named_with_its_value_and_what_was_expected() {
             },
         ),
         (
-            "k_h_factor[2] = -1 1, expected a value from 0 to 1000000",
+            "k_h_factor[2] = -1, expected a value from 0 to 1000000",
             |h| h.k_h_factor[1] = -1.0,
         ),
     ] {
