@@ -502,7 +502,8 @@ def test_a_live_arm_follows_its_joints_and_takes_another_payload(payload: Experi
         }
         page.page.evaluate("(state) => handle.update(state)", {"time": time, "attached": time > 5.0, "arms": [arm]})
         hand = pytest.approx(place(payload, ARMS[1], "plant.p", time), abs=1e-9)
-        until(page.page, lambda hand=hand: page.state()["arms"][0]["hand"] == hand)
+        # There is no arm before the first frame.
+        until(page.page, lambda hand=hand: [arm["hand"] for arm in page.state()["arms"]] == [hand])
     until(page.page, lambda: "payload 17.5 kg" in page.text())
     heavier = {**geometry, "payload": {**geometry["payload"], "mass": 25.0}}
     page.page.evaluate("(geometry) => handle.reshape(geometry)", heavier)
