@@ -332,14 +332,32 @@ impl ArmLaw {
     /// sensor's conditioning is to remember of it is written into `made`.
     #[inline]
     fn sensed(&self, q: &Vector3<Real>, inputs: &ArmInputs, ran: &mut Ran, made: &mut Made) {
-        let turn = self.frame.at(&ran.pose);
         let reading = Reading {
             wrench: &self.wrench(inputs),
             valid: inputs.ft_valid != 0,
             tare: inputs.ft_tare != 0,
         };
+        if self.frame == FixedFrame::Base {
+            if let Some(hand) = self.conditioner.plainly(&reading) {
+                ran.ft = hand;
+                return;
+            }
+        }
+        self.conditioned(q, &reading, ran, made);
+    }
+
+    /// The same with all that may be made of a reading.
+    #[inline(never)]
+    fn conditioned(
+        &self,
+        q: &Vector3<Real>,
+        reading: &Reading<'_>,
+        ran: &mut Ran,
+        made: &mut Made,
+    ) {
+        let turn = self.frame.at(&ran.pose);
         let (R, absolute) = (|| turn.R(), || self.absolute(q));
-        let hand = self.conditioner.sampled(&reading, R, absolute, made);
+        let hand = self.conditioner.sampled(reading, R, absolute, made);
         ran.ft = Conditioned {
             hand: Wrench {
                 force: turn.in_base(&hand.hand.force),

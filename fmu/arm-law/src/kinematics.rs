@@ -37,8 +37,6 @@ pub struct Pose {
     pub J: Matrix3<Real>,
     /// Smallest singular value of J, m/rad: the least that the handle moves for a unit of joint motion.
     pub sigma_min: Real,
-    /// Link 3's axes in the base frame, as columns: turns a vector of link 3's frame into the base frame.
-    pub R: Matrix3<Real>,
     /// Sine and cosine of the joint angles.
     pub sin_cos: SinCos,
 }
@@ -49,9 +47,21 @@ impl Pose {
         p: Vector3::new(0.0, 0.0, 0.0),
         J: ZERO,
         sigma_min: 0.0,
-        R: ZERO,
         sin_cos: [(0.0, 0.0); 3],
     };
+
+    /// Link 3's axes in the base frame, as columns: turns a vector of link 3's frame into the base frame.
+    pub fn R(&self) -> Matrix3<Real> {
+        let [(s_1, c_1), ..] = self.sin_cos;
+        let (s_b, c_b) = beta(&self.sin_cos);
+        #[rustfmt::skip]
+        let R = Matrix3::new(
+            c_1 * c_b, -s_1, -c_1 * s_b,
+            s_1 * c_b,  c_1, -s_1 * s_b,
+            s_b,        0.0,  c_b,
+        );
+        R
+    }
 }
 
 /// Nine zeros.
@@ -119,7 +129,6 @@ impl Kinematics {
             p: Vector3::zeros(),
             J: Matrix3::zeros(),
             sigma_min: 0.0,
-            R: Matrix3::zeros(),
             sin_cos: *sin_cos,
         };
         self.turn(&mut pose, sin_cos);
@@ -129,8 +138,7 @@ impl Kinematics {
     /// Brings `pose` to joint angles given by sine and cosine.
     #[inline]
     pub(crate) fn turn(&self, pose: &mut Pose, sin_cos: &SinCos) {
-        let [(s_1, c_1), _, (s_3, c_3)] = *sin_cos;
-        let (s_b, c_b) = beta(sin_cos);
+        let [_, _, (s_3, c_3)] = *sin_cos;
         let InPlane { x, z, r_x, r_z } = self.in_plane(sin_cos);
         let det = self.L1 * (self.handle_x * s_3 + self.handle_z * c_3);
         pose.p = self.p(sin_cos);
@@ -139,13 +147,6 @@ impl Kinematics {
             real::abs(self.A1 + x),
             real::abs(det) / largest_singular_value([[-z, -r_z], [x, r_x]]),
         );
-        #[rustfmt::skip]
-        let R = Matrix3::new(
-            c_1 * c_b, -s_1, -c_1 * s_b,
-            s_1 * c_b,  c_1, -s_1 * s_b,
-            s_b,        0.0,  c_b,
-        );
-        pose.R = R;
         pose.sin_cos = *sin_cos;
     }
 

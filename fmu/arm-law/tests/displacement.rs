@@ -31,7 +31,7 @@ proptest! {
         let most = 1e-14;
         prop_assert!((origin.p() + displaced.p - there.p).amax() <= most);
         prop_assert!((displaced.J - there.J).amax() <= most);
-        prop_assert!((displaced.R - there.R).amax() <= most);
+        prop_assert!((displaced.R() - there.R()).amax() <= most);
         // σ_min is |det|/σ_max: near a singularity the rounding of det over σ_max ≥ 0.06 m.
         prop_assert!((displaced.sigma_min - there.sigma_min).abs() <= 1e-12);
     }

@@ -33,8 +33,20 @@ impl<M: Model> Outputs<M> {
     /// The first that may not, with its name and unit.
     #[inline]
     pub(crate) fn check(&self, model: &M) -> Result<(), String> {
+        if !self.finite.is_met(model) {
+            return Err(refused(model));
+        }
+        if self.may_be_nan.is_empty() && self.binaries.is_empty() {
+            return Ok(());
+        }
+        self.check_seldom(model)
+    }
+
+    /// What most models do not have.
+    #[inline(never)]
+    fn check_seldom(&self, model: &M) -> Result<(), String> {
         let mut readings = self.may_be_nan.iter().flat_map(|place| place.values(model));
-        if !self.finite.is_met(model) || readings.any(f64::is_infinite) {
+        if readings.any(f64::is_infinite) {
             return Err(refused(model));
         }
         let objection = |row: &&Variable<M>| {

@@ -103,6 +103,8 @@ impl Default for Conditioned {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Conditioner {
     sensor: Sensor,
+    /// whether nothing but the lever arm and a bias is made of a reading, as at the start values
+    plain: bool,
     validity: Validity,
     tare: Tare,
     filter: LowPass,
@@ -119,6 +121,8 @@ pub(crate) struct Reading<'a> {
 /// not handed on.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Made {
+    /// whether there is anything to be remembered
+    any: bool,
     seen: Seen,
     requested: bool,
     progress: Option<Progress>,
@@ -156,6 +160,10 @@ impl Conditioner {
         sensor.check()?;
         Ok(Self {
             sensor,
+            plain: sensor.tool.mass == 0.0
+                && sensor.deadband == 0.0
+                && sensor.cutoff == 0.0
+                && !sensor.checks.any(),
             validity: Validity::new(sensor.checks, T),
             tare: Tare::new(sensor.tare, T),
             filter: LowPass::new(sensor.cutoff, T),
@@ -175,6 +183,24 @@ impl Conditioner {
         hand
     }
 
+    /// What is made of a `reading` where that is next to nothing, and nothing of it is to be remembered: no part of the way is
+    /// used but the lever arm and the bias, the sensor has no fault and no tare runs. All else goes by
+    /// [`sampled`](Self::sampled), with the same result.
+    #[inline]
+    pub(crate) fn plainly(&self, reading: &Reading<'_>) -> Option<Conditioned> {
+        let is_quiet = self.validity.is_sound() && self.tare.is_quiet();
+        if !(self.plain && is_quiet && reading.valid) || reading.tare {
+            return None;
+        }
+        let hand = (*reading.wrench - *self.tare.bias()).about(&self.sensor.handle.into());
+        // Where the reading is not finite, this is not, either.
+        real::are_finite(hand.force.iter().chain(&hand.torque)).then_some(Conditioned {
+            hand,
+            fault: None,
+            tare: self.tare.state(),
+        })
+    }
+
     /// What is made of a `reading`; what is to be remembered of it, once it is [kept](Self::keep), is written into `made`, which
     /// is the default. The sensor's orientation `R` and the joint angles `q` (rad) are asked for where they matter.
     #[inline]
@@ -185,6 +211,7 @@ impl Conditioner {
         q: impl FnOnce() -> Vector3<Real>,
         made: &mut Made,
     ) -> Conditioned {
+        made.any = true;
         let (validity, tare) = (&self.validity, &self.tare);
         validity.sampled(reading.wrench, reading.valid, &mut made.seen);
         let mut fault = made.seen.fault();
@@ -220,6 +247,9 @@ impl Conditioner {
     /// Goes on from what is to be remembered of a sample.
     #[inline]
     pub(crate) fn keep(&mut self, made: &Made) {
+        if !made.any {
+            return;
+        }
         self.validity.keep(&made.seen);
         self.tare.keep(made.requested, made.progress.as_ref());
         self.filter.keep(made.passed.as_ref());

@@ -63,8 +63,8 @@ impl FixedFrame {
         Turn {
             R: match self {
                 Self::Base => None,
-                Self::Link3 => Some(pose.R),
-                Self::Mounted(R) => Some(pose.R * R),
+                Self::Link3 => Some(pose.R()),
+                Self::Mounted(R) => Some(pose.R() * R),
             },
         }
     }

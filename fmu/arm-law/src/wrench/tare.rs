@@ -148,6 +148,12 @@ impl Tare {
         self.progress.state
     }
 
+    /// Whether none runs, and none was requested at the last sample.
+    #[inline]
+    pub(super) fn is_quiet(&self) -> bool {
+        self.state() != TareState::Running && !self.requested
+    }
+
     /// What the last tare that was done has found, else zero.
     pub fn bias(&self) -> &Wrench {
         &self.progress.bias

@@ -129,6 +129,11 @@ impl Fault {
 }
 
 impl Checks {
+    /// Whether one of them is on, but for that on NaN and infinity.
+    pub(super) fn any(&self) -> bool {
+        self.look_back() || self.range_force > 0.0 || self.range_torque > 0.0
+    }
+
     /// Whether one of them compares a sample with those before.
     fn look_back(&self) -> bool {
         self.rate_force > 0.0
@@ -148,6 +153,12 @@ impl Validity {
             fault: None,
             sound: 0.0,
         }
+    }
+
+    /// Whether nothing is wrong, as of the last sample.
+    #[inline]
+    pub(super) fn is_sound(&self) -> bool {
+        self.fault.is_none()
     }
 
     /// What is `seen` with the sample `raw`, and with it the fault, if there is one. `flag` is the sensor's own word: false =

@@ -3,28 +3,41 @@
 use super::{Place, Point, Stored};
 use core::marker::PhantomData;
 
-/// The numbers of a struct `M` that are to be finite: those that lie side by side in fours, the others one by one.
+/// The numbers of a struct `M` that are to be finite: those that lie side by side in eights and fours, the others one by one.
 ///
 /// All outputs are looked at after every step, so it is done without a branch for each, and in integers, which raise no
-/// exception: an exponent of ones, and 1 added to it, reaches the sign, which was taken off.
+/// exception: the exponent of what is not finite consists of ones, and no other number's leading bits are as large.
 pub struct Finite<M> {
-    fours: Vec<Four<M>>,
+    eights: Vec<Side<M, [Two; 4]>>,
+    fours: Vec<Side<M, [Two; 2]>>,
     others: Vec<Point<M, f64>>,
 }
 
-/// The place of four numbers side by side.
-struct Four<M> {
+/// The place of numbers side by side, which are read as `T`.
+struct Side<M, T> {
     offset: u32,
-    holder: PhantomData<fn(&M)>,
+    holder: PhantomData<fn(&M) -> T>,
 }
 
-const SIGN: u64 = 1 << 63;
-const EXPONENT_1: u64 = 1 << (f64::MANTISSA_DIGITS - 1);
+/// Two numbers in quarters: a processor finds the larger ones of eight pairs of them at once.
+type Two = [i16; 8];
 
-/// Has the sign if `value` is not finite.
+/// Where the quarters with sign and exponent are.
+const LEADING: [usize; 2] = if cfg!(target_endian = "little") {
+    [3, 7]
+} else {
+    [0, 4]
+};
+
+/// The least leading quarter, but for its sign, of what is not finite.
+const NOT_FINITE: i16 = 0x7FF0;
+
+/// Raises the quarters of `most` to those of `numbers`, without their signs.
 #[inline(always)]
-fn look(value: f64) -> u64 {
-    (value.to_bits() & !SIGN) + EXPONENT_1
+fn look(most: &mut Two, numbers: &Two) {
+    for (most, quarter) in most.iter_mut().zip(numbers) {
+        *most = (*most).max(quarter & i16::MAX);
+    }
 }
 
 impl<M> Finite<M> {
@@ -41,18 +54,15 @@ impl<M> Finite<M> {
             }
         }
         let mut found = Self {
+            eights: Vec::new(),
             fours: Vec::new(),
             others: Vec::new(),
         };
         for run in &runs {
-            if run.lies_side_by_side() && run.len >= 4 {
-                // The last one overlaps the one before where it must.
-                found.fours.extend((0..run.len).step_by(4).map(|i| Four {
-                    offset: run.offset + run.stride * i.min(run.len - 4),
-                    holder: PhantomData,
-                }));
-            } else {
-                found.others.extend((0..run.len()).map(|i| run.point(i)));
+            match run.len {
+                8.. if run.lies_side_by_side() => found.eights.extend(run.sides()),
+                4.. if run.lies_side_by_side() => found.fours.extend(run.sides()),
+                _ => found.others.extend((0..run.len()).map(|i| run.point(i))),
             }
         }
         found
@@ -61,34 +71,50 @@ impl<M> Finite<M> {
     /// Whether all are.
     #[inline]
     pub fn is_met(&self, model: &M) -> bool {
-        let mut seen = [0; 4];
-        for four in &self.fours {
-            for (seen, value) in seen.iter_mut().zip(four.get(model)) {
-                *seen |= look(value);
+        let mut most = [0; 8];
+        for eight in &self.eights {
+            for two in eight.get(model) {
+                look(&mut most, two);
             }
         }
-        let [a, b, c, d] = seen;
-        let mut seen = a | b | c | d;
-        for other in &self.others {
-            seen |= look(other.get(model));
+        for four in &self.fours {
+            for two in four.get(model) {
+                look(&mut most, two);
+            }
         }
-        seen & SIGN == 0
+        // A compiler that knows which quarters are read finds each by itself.
+        let most = core::hint::black_box(most);
+        let others = self.others.iter().all(|other| other.get(model).is_finite());
+        others && LEADING.iter().all(|i| most[*i] < NOT_FINITE)
     }
 }
 
-impl<M> Four<M> {
+impl<M, T> Side<M, T> {
     #[inline(always)]
-    fn get(&self, model: &M) -> [f64; 4] {
+    fn get<'a>(&self, model: &'a M) -> &'a T {
         let begin = core::ptr::from_ref(model).cast::<u8>();
-        // SAFETY: four values of a run of places, which are fields of `M`, of type f64, 8 bytes apart; `model` is borrowed
-        // as a whole.
-        unsafe { *begin.add(self.offset as usize).cast() }
+        // SAFETY: the values of a run of places, which are fields of `M`, of type f64, 8 bytes apart; `model` is borrowed
+        // as a whole. `T` is as long; any bits will do for its integers, which need no larger alignment.
+        unsafe { &*begin.add(self.offset as usize).cast() }
     }
 }
 
 impl<M> Place<M, f64> {
     fn lies_side_by_side(&self) -> bool {
         self.stride as usize == size_of::<f64>() && self.stored == Stored::AsIs
+    }
+
+    /// All of its values, as many at once as a `T` has, which are not more: the last ones overlap those before where they
+    /// must.
+    fn sides<T>(&self) -> impl Iterator<Item = Side<M, T>> {
+        let (begin, len) = (self.offset, self.len * self.stride);
+        let at_once = size_of::<T>() as u32;
+        (0..len)
+            .step_by(size_of::<T>())
+            .map(move |i| Side {
+                offset: begin + i.min(len - at_once),
+                holder: PhantomData,
+            })
     }
 
     /// This place and `next` as one, if `next` begins where this one ends and both are stored alike.
