@@ -7,12 +7,12 @@ mod counting;
 mod decision;
 mod show;
 
-use show::Ran;
+pub(crate) use show::{Done, Shown};
 
 use crate::choices::POSITION_SERVO;
 use crate::choices::WRENCH;
 use crate::displacement::Origin;
-use crate::kinematics::Kinematics;
+use crate::kinematics::{Kinematics, Pose};
 use crate::parameters::ArmParameters;
 use crate::signals::{ArmInputs, ArmOutputs};
 use crate::singularity::Singularity;
@@ -22,7 +22,7 @@ use crate::supervision::{Demand, Supervisor};
 use crate::wrench::conditioner::{Made, Reading};
 use crate::wrench::frame::FixedFrame;
 use crate::wrench::{Conditioned, Conditioner, Wrench};
-use admittance::encoder::{Believed, Encoders, Positions};
+use admittance::encoder::{self, Believed, Encoders, Positions};
 use admittance::origin;
 use admittance::{Bounds, Ledger, ParameterError, Real, Request, real, timing};
 use nalgebra::Vector3;
@@ -226,16 +226,15 @@ impl ArmLaw {
         inputs: &ArmInputs,
         outputs: &mut ArmOutputs,
     ) -> Result<(), NotFinite> {
-        let mut ran = Ran::nothing(after, believed.fault);
         let q = believed.q.map(|q| self.counted(&q, inputs)).transpose()?;
         if self.supervisor.is_some() {
-            self.supervised(inputs, q.as_ref(), believed.doubted, &mut ran);
+            self.supervised(inputs, q.as_ref(), believed, after, outputs);
             self.show_drift(outputs);
         } else {
-            self.unsupervised(inputs, q.as_ref(), believed.doubted, &mut ran)?;
+            self.unsupervised(inputs, q.as_ref(), believed, after, outputs)?;
         }
-        self.counting.ticked(ran.outcome.engaged);
-        self.show(&ran, outputs);
+        outputs.encoder_fault = believed.fault.map_or(0, encoder::Fault::number);
+        self.counting.ticked(outputs.engaged != 0);
         Ok(())
     }
 
@@ -257,17 +256,23 @@ impl ArmLaw {
         Ok(())
     }
 
-    /// What the law does at joint angles `q` (rad), with the pose and the hand in `ran`; judged by nobody. After an error
-    /// it is as it was.
+    /// What the law does at joint angles `q` (rad), where the handle is at `pose`, with the force `f_h` (N, base frame) of the
+    /// hand and joint angles read `after` sample periods after those before; judged by nobody, and shown. After an error law
+    /// and outputs are as they were.
     #[inline]
-    fn run(&mut self, q: &Vector3<Real>, demand: Demand, ran: &mut Ran) -> Result<(), NotFinite> {
-        let Ran {
-            pose,
-            outcome,
-            nominal,
-            ft,
-            ..
-        } = ran;
+    fn run(
+        &mut self,
+        q: &Vector3<Real>,
+        pose: &Pose,
+        f_h: &Vector3<Real>,
+        demand: Demand,
+        after: Real,
+        outputs: &mut ArmOutputs,
+    ) -> Result<(), NotFinite> {
+        let shown = Shown {
+            outputs,
+            origin: self.origin.as_ref(),
+        };
         let damping = if self.law.knows_singularities() {
             self.singularity.damping(pose.sigma_min)
         } else {
@@ -275,7 +280,6 @@ impl ArmLaw {
         };
         match demand {
             Demand::Run { authority, freedom } => {
-                let f_h = &ft.hand.force;
                 let seen = self.stiff_hand.sensed(&pose.p, f_h);
                 let damping = Vector3::repeat(damping);
                 let request = Request {
@@ -285,23 +289,22 @@ impl ArmLaw {
                         .as_ref()
                         .map_or(damping, |seen| damping + stiff_hand::damping(seen)),
                     speed: self.speed(freedom),
-                    after: ran.after,
+                    after,
                 };
-                self.law.step(pose, q, f_h, &request, outcome, nominal)?;
+                self.law.step(pose, q, f_h, &request, shown)?;
                 self.stiff_hand.keep(seen.as_ref());
                 if freedom >= 1.0 {
-                    self.v_n = *self.law.velocity(outcome, nominal);
+                    self.v_n = self.law.velocity(outputs);
                 }
             }
             Demand::Rest => {
-                self.law.rest(pose, q, outcome, nominal)?;
+                self.law.rest(pose, q, shown)?;
                 self.stiff_hand.rest();
-                self.v_n = *self.law.velocity(outcome, nominal);
+                self.v_n = self.law.velocity(outputs);
             }
         }
         self.q = *q;
-        ran.slowed = demand != Demand::Rest && damping > 0.0;
-        ran.stiff_hand = self.stiff_hand.known();
+        outputs.slowed = i32::from(demand != Demand::Rest && damping > 0.0);
         Ok(())
     }
 
@@ -328,10 +331,16 @@ impl ArmLaw {
         }
     }
 
-    /// What the hand does, with the pose in `ran` and joint angles `q` (rad): into `ran` in the base frame. What the
-    /// sensor's conditioning is to remember of it is written into `made`.
+    /// What the hand does at joint angles `q` (rad), where the handle is at `pose`: in the base frame. What the sensor's
+    /// conditioning is to remember of it is written into `made`.
     #[inline]
-    fn sensed(&self, q: &Vector3<Real>, inputs: &ArmInputs, ran: &mut Ran, made: &mut Made) {
+    fn sensed(
+        &self,
+        q: &Vector3<Real>,
+        pose: &Pose,
+        inputs: &ArmInputs,
+        made: &mut Made,
+    ) -> Conditioned {
         let reading = Reading {
             wrench: &self.wrench(inputs),
             valid: inputs.ft_valid != 0,
@@ -339,11 +348,10 @@ impl ArmLaw {
         };
         if self.frame == FixedFrame::Base {
             if let Some(hand) = self.conditioner.plainly(&reading) {
-                ran.ft = hand;
-                return;
+                return hand;
             }
         }
-        self.conditioned(q, &reading, ran, made);
+        self.conditioned(q, pose, &reading, made)
     }
 
     /// The same with all that may be made of a reading.
@@ -351,20 +359,20 @@ impl ArmLaw {
     fn conditioned(
         &self,
         q: &Vector3<Real>,
+        pose: &Pose,
         reading: &Reading<'_>,
-        ran: &mut Ran,
         made: &mut Made,
-    ) {
-        let turn = self.frame.at(&ran.pose);
+    ) -> Conditioned {
+        let turn = self.frame.at(pose);
         let (R, absolute) = (|| turn.R(), || self.absolute(q));
         let hand = self.conditioner.sampled(reading, R, absolute, made);
-        ran.ft = Conditioned {
+        Conditioned {
             hand: Wrench {
                 force: turn.in_base(&hand.hand.force),
                 torque: turn.in_base(&hand.hand.torque),
             },
             ..hand
-        };
+        }
     }
 
     /// What the hand's force sensor reads when nothing acts on it, as far as a tare has found it; sensor frame.

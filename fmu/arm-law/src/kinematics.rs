@@ -42,14 +42,6 @@ pub struct Pose {
 }
 
 impl Pose {
-    /// Nowhere yet. A constant, as `zeros` of a matrix is made elsewhere and then moved: at every tick.
-    pub(crate) const NOWHERE: Self = Self {
-        p: Vector3::new(0.0, 0.0, 0.0),
-        J: ZERO,
-        sigma_min: 0.0,
-        sin_cos: [(0.0, 0.0); 3],
-    };
-
     /// Link 3's axes in the base frame, as columns: turns a vector of link 3's frame into the base frame.
     pub fn R(&self) -> Matrix3<Real> {
         let [(s_1, c_1), ..] = self.sin_cos;
@@ -63,9 +55,6 @@ impl Pose {
         R
     }
 }
-
-/// Nine zeros.
-pub(crate) const ZERO: Matrix3<Real> = Matrix3::new(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
 
 /// How joint angles and the distance from the yaw axis change with the handle's position.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -125,29 +114,18 @@ impl Kinematics {
     /// The handle at joint angles given by sine and cosine.
     #[inline]
     pub(crate) fn turned(&self, sin_cos: &SinCos) -> Pose {
-        let mut pose = Pose {
-            p: Vector3::zeros(),
-            J: Matrix3::zeros(),
-            sigma_min: 0.0,
-            sin_cos: *sin_cos,
-        };
-        self.turn(&mut pose, sin_cos);
-        pose
-    }
-
-    /// Brings `pose` to joint angles given by sine and cosine.
-    #[inline]
-    pub(crate) fn turn(&self, pose: &mut Pose, sin_cos: &SinCos) {
         let [_, _, (s_3, c_3)] = *sin_cos;
         let InPlane { x, z, r_x, r_z } = self.in_plane(sin_cos);
         let det = self.L1 * (self.handle_x * s_3 + self.handle_z * c_3);
-        pose.p = self.p(sin_cos);
-        pose.J = self.J(sin_cos);
-        pose.sigma_min = real::min(
-            real::abs(self.A1 + x),
-            real::abs(det) / largest_singular_value([[-z, -r_z], [x, r_x]]),
-        );
-        pose.sin_cos = *sin_cos;
+        Pose {
+            p: self.p(sin_cos),
+            J: self.J(sin_cos),
+            sigma_min: real::min(
+                real::abs(self.A1 + x),
+                real::abs(det) / largest_singular_value([[-z, -r_z], [x, r_x]]),
+            ),
+            sin_cos: *sin_cos,
+        }
     }
 
     /// Position of the handle, m.

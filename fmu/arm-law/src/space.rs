@@ -1,9 +1,11 @@
 //! The coordinates in which the nominal lives, and the law in them.
 
-use crate::handle::{HandleTick, NotFinite};
-use crate::joint_space::{JointGains, JointServo, JointSpace, Nominal};
+use crate::arm_law::{Done, Shown};
+use crate::handle::NotFinite;
+use crate::joint_space::{JointGains, JointServo, JointSpace};
 use crate::kinematics::{Kinematics, Pose};
 use crate::parameters::Checked;
+use crate::signals::ArmOutputs;
 use crate::task_space::TaskSpace;
 use admittance::{Gains, Ledger, ParameterError, Real, Request};
 use nalgebra::Vector3;
@@ -106,8 +108,8 @@ impl InSpace {
         }
     }
 
-    /// One tick in the loop. `request.speed` is that of the nominal's own coordinates, m/s or rad/s; `nominal` is one at rest
-    /// without a mass, and stays so in task space.
+    /// One tick in the loop, `shown` once it is accepted. `request.speed` is that of the nominal's own coordinates, m/s or
+    /// rad/s.
     #[inline]
     pub fn step(
         &mut self,
@@ -115,17 +117,25 @@ impl InSpace {
         q: &Vector3<Real>,
         f_h: &Vector3<Real>,
         request: &Request<3>,
-        shown: &mut HandleTick,
-        nominal: &mut Nominal,
+        mut shown: Shown<'_>,
     ) -> Result<(), NotFinite> {
         match self {
             Self::Task(law) => {
-                nominal.q_n = *q; // it has no joints of its own
-                law.step(pose, q, f_h, request, shown)
+                law.step(pose, q, f_h, request, |tick| shown.handle(tick))?;
+                shown.no_nominal(q);
             }
-            Self::Joint(law) => law.step(pose, q, f_h, request, shown, nominal),
-            Self::Servo(law) => law.step(pose, q, f_h, request, shown, nominal),
+            Self::Joint(law) => {
+                let mut done = Done::at_rest(pose, q);
+                law.step(pose, q, f_h, request, &mut done.handle, &mut done.nominal)?;
+                shown.done(&done);
+            }
+            Self::Servo(law) => {
+                let mut done = Done::at_rest(pose, q);
+                law.step(pose, q, f_h, request, &mut done.handle, &mut done.nominal)?;
+                shown.done(&done);
+            }
         }
+        Ok(())
     }
 
     /// One tick out of the loop.
@@ -133,46 +143,37 @@ impl InSpace {
         &mut self,
         pose: &Pose,
         q: &Vector3<Real>,
-        shown: &mut HandleTick,
-        nominal: &mut Nominal,
+        mut shown: Shown<'_>,
     ) -> Result<(), NotFinite> {
+        let mut done = Done::at_rest(pose, q);
+        let Done { handle, nominal } = &mut done;
         match self {
-            Self::Task(law) => {
-                nominal.q_n = *q; // it has no joints of its own
-                law.rest(pose, q, shown)
-            }
-            Self::Joint(law) => law.rest(pose, q, shown, nominal),
-            Self::Servo(law) => law.rest(pose, q, shown, nominal),
-        }
+            Self::Task(law) => law.rest(pose, q, handle),
+            Self::Joint(law) => law.rest(pose, q, handle, nominal),
+            Self::Servo(law) => law.rest(pose, q, handle, nominal),
+        }?;
+        shown.done(&done);
+        Ok(())
     }
 
     /// The same when the sample that ends cannot be told in finite numbers.
-    pub fn abandon(
-        &mut self,
-        pose: &Pose,
-        q: &Vector3<Real>,
-        shown: &mut HandleTick,
-        nominal: &mut Nominal,
-    ) {
+    pub fn abandon(&mut self, pose: &Pose, q: &Vector3<Real>, mut shown: Shown<'_>) {
+        let mut done = Done::at_rest(pose, q);
+        let Done { handle, nominal } = &mut done;
         match self {
-            Self::Task(law) => {
-                nominal.q_n = *q; // it has no joints of its own
-                law.abandon(pose, shown);
-            }
-            Self::Joint(law) => law.abandon(pose, q, shown, nominal),
-            Self::Servo(law) => law.abandon(pose, q, shown, nominal),
+            Self::Task(law) => law.abandon(pose, handle),
+            Self::Joint(law) => law.abandon(pose, q, handle, nominal),
+            Self::Servo(law) => law.abandon(pose, q, handle, nominal),
         }
+        shown.done(&done);
     }
 
-    /// The nominal's velocity in its own coordinates, m/s or rad/s.
-    pub const fn velocity<'a>(
-        &self,
-        shown: &'a HandleTick,
-        nominal: &'a Nominal,
-    ) -> &'a Vector3<Real> {
+    /// The nominal's velocity in its own coordinates as the `outputs` show it, m/s or rad/s.
+    #[inline]
+    pub fn velocity(&self, outputs: &ArmOutputs) -> Vector3<Real> {
         match self {
-            Self::Task(_) => &shown.dp_n,
-            Self::Joint(_) | Self::Servo(_) => &nominal.dq_n,
+            Self::Task(_) => outputs.dp_n.into(),
+            Self::Joint(_) | Self::Servo(_) => outputs.dq_n.into(),
         }
     }
 

@@ -85,7 +85,8 @@ impl TaskSpace {
         self.sampled.law_mut().axes.tune(gains)
     }
 
-    /// One tick at joint angles `q` (rad), where the handle is at `pose`, with the human's force `f_h` (N, base frame).
+    /// One tick at joint angles `q` (rad), where the handle is at `pose`, with the human's force `f_h` (N, base frame). `show` is
+    /// called with what happened, if it is accepted.
     ///
     /// # Errors
     /// A result that is not finite: the law is as it was.
@@ -96,7 +97,7 @@ impl TaskSpace {
         q: &Vector3<Real>,
         f_h: &Vector3<Real>,
         request: &Request<3>,
-        shown: &mut HandleTick,
+        show: impl FnOnce(&HandleTick),
     ) -> Result<(), NotFinite> {
         let is_near = match &self.workspace {
             Some(limits) if !limits.are_far(q, self.sampled.ledger().motion(), pose) => {
@@ -118,7 +119,7 @@ impl TaskSpace {
             J: &pose.J,
         };
         let accept = |tick: &Tick<3>, G: Real| {
-            *shown = HandleTick {
+            let done = HandleTick {
                 f_a: match self.limits.limiting {
                     TorqueLimiting::Clip if tick.limited => {
                         let inverse = pose.J.transpose().try_inverse();
@@ -138,7 +139,11 @@ impl TaskSpace {
                 outside_bounds: tick.outside_bounds,
                 engaged: tick.engaged,
             };
-            shown.is_finite() && G.is_finite()
+            let is_accepted = done.is_finite() && G.is_finite();
+            if is_accepted {
+                show(&done);
+            }
+            is_accepted
         };
         let done = self.sampled.tick(&inputs, &joints, accept);
         if is_near {

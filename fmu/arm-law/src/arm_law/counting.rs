@@ -46,12 +46,12 @@ impl ArmLaw {
         self.origin.map_or(*q, |origin| origin.q() + q)
     }
 
-    /// Brings `pose` to the joint angles `q` (rad).
+    /// The handle at the joint angles `q` (rad).
     #[inline]
-    pub(super) fn turn(&self, pose: &mut Pose, q: &Vector3<Real>) {
+    pub(super) fn pose(&self, q: &Vector3<Real>) -> Pose {
         match &self.origin {
-            Some(origin) => *pose = origin.displaced(&self.kinematics, q),
-            None => self.kinematics.turn(pose, &sin_cos(q)),
+            Some(origin) => origin.displaced(&self.kinematics, q),
+            None => self.kinematics.turned(&sin_cos(q)),
         }
     }
 

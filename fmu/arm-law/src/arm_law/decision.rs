@@ -1,24 +1,28 @@
 //! Who decides whether the law runs at a tick: `engage` and `hold`, or supervision.
 
-use super::{ArmLaw, NotFinite, Ran};
-use crate::signals::ArmInputs;
+use super::{ArmLaw, NotFinite, Shown};
+use crate::kinematics::Pose;
+use crate::signals::{ArmInputs, ArmOutputs};
 use crate::supervision::{self, Demand, Felt, Report, Status};
-use crate::wrench::TareState;
 use crate::wrench::conditioner::Made;
-use admittance::{Real, encoder};
+use crate::wrench::{Conditioned, TareState};
+use admittance::encoder::{self, Believed};
+use admittance::Real;
 use nalgebra::Vector3;
 
 impl ArmLaw {
     /// One tick in which `engage` and `hold` decide. Without joint angles the law rests, and engages anew with them.
+    #[inline]
     pub(super) fn unsupervised(
         &mut self,
         inputs: &ArmInputs,
         q: Option<&Vector3<Real>>,
-        doubted: bool,
-        ran: &mut Ran,
+        believed: &Believed<3>,
+        after: Real,
+        outputs: &mut ArmOutputs,
     ) -> Result<(), NotFinite> {
         let Some(q) = q else {
-            return self.blind(inputs, ran);
+            return self.blind(inputs, believed, outputs);
         };
         let demand = match (inputs.engage != 0, inputs.hold != 0) {
             (false, _) => Demand::Rest,
@@ -27,28 +31,34 @@ impl ArmLaw {
                 freedom: if hold { 0.0 } else { 1.0 },
             },
         };
-        self.turn(&mut ran.pose, q);
+        let pose = self.pose(q);
         let mut made = Made::default();
-        self.sensed(q, inputs, ran, &mut made);
-        self.run(q, demand, ran)?;
+        let ft = self.sensed(q, &pose, inputs, &mut made);
+        self.run(q, &pose, &ft.hand.force, demand, after, outputs)?;
         self.conditioner.keep(&made);
-        ran.outcome.outside_bounds |= doubted;
-        ran.status = Status::of(demand);
+        outputs.outside_bounds |= i32::from(believed.doubted);
+        self.show(&pose, &ft, &Status::of(demand), outputs);
         Ok(())
     }
 
     /// The same without joint angles: it rests where it last knew the arm to be.
     #[cold]
-    fn blind(&mut self, inputs: &ArmInputs, ran: &mut Ran) -> Result<(), NotFinite> {
-        if ran.encoder == Some(encoder::Fault::NotFinite) {
+    fn blind(
+        &mut self,
+        inputs: &ArmInputs,
+        believed: &Believed<3>,
+        outputs: &mut ArmOutputs,
+    ) -> Result<(), NotFinite> {
+        if believed.fault == Some(encoder::Fault::NotFinite) {
             return Err(NotFinite);
         }
         let last = self.q;
-        self.turn(&mut ran.pose, &last);
+        let pose = self.pose(&last);
         let mut made = Made::default();
-        self.sensed(&last, inputs, ran, &mut made);
-        self.abandon(ran);
+        let ft = self.sensed(&last, &pose, inputs, &mut made);
+        self.abandon(outputs);
         self.conditioner.keep(&made);
+        self.show(&pose, &ft, &Status::of(Demand::Rest), outputs);
         Ok(())
     }
 
@@ -58,16 +68,17 @@ impl ArmLaw {
         &mut self,
         inputs: &ArmInputs,
         q: Option<&Vector3<Real>>,
-        doubted: bool,
-        ran: &mut Ran,
+        believed: &Believed<3>,
+        after: Real,
+        outputs: &mut ArmOutputs,
     ) {
-        let is_seen = q.is_some() && (doubted || ran.encoder.is_none());
+        let is_seen = q.is_some() && (believed.doubted || believed.fault.is_none());
         let q = q.map_or(self.q, |q| *q);
-        self.turn(&mut ran.pose, &q);
+        let mut pose = self.pose(&q);
         let mut made = Made::default();
-        self.sensed(&q, inputs, ran, &mut made);
+        let ft = self.sensed(&q, &pose, inputs, &mut made);
         let felt = if self.watches_drift() {
-            self.felt(inputs, ran)
+            self.felt(inputs, &pose, &ft)
         } else {
             Felt::default()
         };
@@ -78,37 +89,38 @@ impl ArmLaw {
             emergency_stop: inputs.emergency_stop != 0,
             hold: inputs.hold != 0,
             heartbeat: inputs.heartbeat,
-            ft_valid: ran.ft.fault.is_none(),
+            ft_valid: ft.fault.is_none(),
             encoder_valid: is_seen,
-            force: ran.ft.hand.force.norm(),
+            force: ft.hand.force.norm(),
             felt,
         });
 
         let outcome = if demand == Demand::Rest && !is_seen {
-            self.abandon(ran);
+            pose = self.abandon(outputs);
             Ok(())
         } else {
-            self.run(&q, demand, ran)
+            self.run(&q, &pose, &ft.hand.force, demand, after, outputs)
         };
         let report = match outcome {
             Ok(()) => {
                 self.conditioner.keep(&made);
-                ran.outcome.outside_bounds |= doubted;
+                outputs.outside_bounds |= i32::from(believed.doubted);
                 Report {
                     finite: true,
                     debt: self.ledger().is_in_debt(),
-                    outside_bounds: ran.outcome.outside_bounds,
-                    saturated: ran.outcome.saturated,
-                    speed: ran.outcome.dp_n.norm(),
+                    outside_bounds: outputs.outside_bounds != 0,
+                    saturated: outputs.saturated != 0,
+                    speed: Vector3::from(outputs.dp_n).norm(),
                 }
             }
             Err(NotFinite) => {
-                self.abandon(ran);
+                pose = self.abandon(outputs);
                 Report::NOT_FINITE
             }
         };
         if let Some(supervisor) = &mut self.supervisor {
-            ran.status = supervisor.judge(&report);
+            let status = supervisor.judge(&report);
+            self.show(&pose, &ft, &status, outputs);
         }
     }
 
@@ -118,11 +130,11 @@ impl ArmLaw {
         supervisor.is_some_and(|supervisor| supervisor.drift().is_some())
     }
 
-    /// What is felt of the hand in the sensor's frame, with the pose and the conditioned force in `ran`.
+    /// What is felt of the hand in the sensor's frame, with the handle at `pose` and the conditioned force.
     #[cold]
-    fn felt(&self, inputs: &ArmInputs, ran: &Ran) -> Felt {
-        let R = self.frame.at(&ran.pose).R();
-        let known = ran.ft.fault.is_none() && ran.ft.tare != TareState::Running;
+    fn felt(&self, inputs: &ArmInputs, pose: &Pose, ft: &Conditioned) -> Felt {
+        let R = self.frame.at(pose).R();
+        let known = ft.fault.is_none() && ft.tare != TareState::Running;
         let force = if known {
             self.conditioner.unladen(&self.wrench(inputs).force, &R)
         } else {
@@ -144,19 +156,17 @@ impl ArmLaw {
         }
     }
 
-    /// No torque, the nominal where the arm was last known to be.
+    /// No torque, the nominal where the arm was last known to be: its pose there.
     #[cold]
-    fn abandon(&mut self, ran: &mut Ran) {
-        let Ran {
-            pose,
-            outcome,
-            nominal,
-            ..
-        } = ran;
-        self.turn(pose, &self.q);
+    fn abandon(&mut self, outputs: &mut ArmOutputs) -> Pose {
+        let pose = self.pose(&self.q);
         self.stiff_hand.rest();
-        self.law.abandon(pose, &self.q, outcome, nominal);
-        ran.slowed = false;
-        ran.stiff_hand = self.stiff_hand.known();
+        let shown = Shown {
+            outputs,
+            origin: self.origin.as_ref(),
+        };
+        self.law.abandon(&pose, &self.q, shown);
+        outputs.slowed = 0;
+        pose
     }
 }

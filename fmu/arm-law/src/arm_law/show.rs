@@ -2,97 +2,107 @@
 
 use super::{ArmLaw, HandleTick};
 use crate::choices::DEBT;
+use crate::displacement::Origin;
 use crate::joint_space::Nominal;
-use crate::kinematics::{Pose, ZERO};
+use crate::kinematics::Pose;
 use crate::signals::ArmOutputs;
-use crate::stiff_hand::StiffHandSeen;
-use crate::supervision::{Demand, State, Status};
+use crate::supervision::{State, Status};
 use crate::wrench::{Conditioned, Fault, TareFailure};
-use admittance::{Real, encoder};
-use nalgebra::Vector3;
+use admittance::Real;
+use nalgebra::{Matrix3, Vector3};
 
-/// What came of a tick, before it is shown.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Ran {
-    /// where the handle is
-    pub(super) pose: Pose,
-    /// what the law did
-    pub(super) outcome: HandleTick,
-    /// the nominal in joint coordinates; in task space, where it has none, the robot at rest, M_n 0
-    pub(super) nominal: Nominal,
-    /// whether the nominal is slowed before a singularity
-    pub(super) slowed: bool,
-    /// what is known of a stiff hand, after this tick
-    pub(super) stiff_hand: StiffHandSeen,
-    /// what the law knows of the hand: about the handle, in the base frame
-    pub(super) ft: Conditioned,
-    /// sample periods since the joint angles before these were read
-    pub(super) after: Real,
-    /// what is wrong with the joint angles
-    pub(super) encoder: Option<encoder::Fault>,
-    /// what supervision says; without it, that the law does what `engage` and `hold` say
-    pub(super) status: Status,
+/// Where a tick is shown.
+pub(crate) struct Shown<'a> {
+    pub outputs: &'a mut ArmOutputs,
+    /// where angles and positions are counted from, if not from zero
+    pub origin: Option<&'a Origin>,
 }
 
-impl Ran {
-    /// Nothing yet, with joint angles read `after` sample periods after those before, with which something may be wrong.
-    #[inline]
-    pub(super) fn nothing(after: Real, encoder: Option<encoder::Fault>) -> Self {
-        let zeros = Vector3::zeros();
+/// What a law did that has a nominal in joint coordinates, before it is shown.
+pub(crate) struct Done {
+    pub handle: HandleTick,
+    /// in task space, where the nominal has none, the robot at rest, M_n 0
+    pub nominal: Nominal,
+}
+
+impl Done {
+    /// Nothing, at joint angles `q` (rad), where the handle is at `pose`.
+    pub(crate) fn at_rest(pose: &Pose, q: &Vector3<Real>) -> Self {
         Self {
-            pose: Pose::NOWHERE,
-            outcome: HandleTick::at_rest(&zeros, false),
-            nominal: Nominal::at(&zeros, ZERO),
-            slowed: false,
-            stiff_hand: StiffHandSeen::default(),
-            ft: Conditioned::default(),
-            after,
-            encoder,
-            status: Status::of(Demand::Rest),
+            handle: HandleTick::at_rest(&pose.p, false),
+            nominal: Nominal::at(q, Matrix3::zeros()),
         }
     }
 }
 
-impl ArmLaw {
-    /// What came of a tick.
-    pub(super) fn show(&self, ran: &Ran, outputs: &mut ArmOutputs) {
-        let Ran {
-            pose,
-            outcome,
-            nominal,
-            slowed,
-            stiff_hand,
-            ft,
-            encoder,
-            status,
-            after: _,
-        } = ran;
-        let absolute = |p: &Vector3<Real>| self.origin().map_or(*p, |p_0| p_0 + p).into();
-        outputs.tau_a = outcome.tau.into();
-        outputs.tau_demand = outcome.tau_demand.into();
-        outputs.f_a = outcome.f_a.into();
-        outputs.p = absolute(&pose.p);
-        outputs.dp = outcome.dp.into();
-        outputs.p_n = absolute(&outcome.p_n);
-        outputs.dp_n = outcome.dp_n.into();
-        outputs.e_nr = outcome.e_nr.into();
-        outputs.sigma_min = pose.sigma_min;
-        outputs.saturated = outcome.saturated.into();
-        outputs.held = outcome.held.into();
-        outputs.outside_bounds = outcome.outside_bounds.into();
-        outputs.engaged = outcome.engaged.into();
-        outputs.slowed = i32::from(*slowed);
-        outputs.q_n = self.absolute(&nominal.q_n).into();
+impl Shown<'_> {
+    /// What happened at the handle.
+    #[inline]
+    pub(crate) fn handle(&mut self, tick: &HandleTick) {
+        let outputs = &mut *self.outputs;
+        outputs.tau_a = tick.tau.into();
+        outputs.tau_demand = tick.tau_demand.into();
+        outputs.f_a = tick.f_a.into();
+        outputs.dp = tick.dp.into();
+        outputs.p_n = self
+            .origin
+            .map_or(tick.p_n, |origin| origin.p() + tick.p_n)
+            .into();
+        outputs.dp_n = tick.dp_n.into();
+        outputs.e_nr = tick.e_nr.into();
+        outputs.saturated = tick.saturated.into();
+        outputs.held = tick.held.into();
+        outputs.share = tick.share;
+        outputs.outside_bounds = tick.outside_bounds.into();
+        outputs.engaged = tick.engaged.into();
+    }
+
+    /// The nominal in joint coordinates.
+    pub(crate) fn nominal(&mut self, nominal: &Nominal) {
+        self.no_nominal(&nominal.q_n);
+        let outputs = &mut *self.outputs;
         outputs.dq_n = nominal.dq_n.into();
         outputs.e_q = nominal.e_nr.into();
         // Row by row is column by column: it is symmetric.
         for (output, M_n) in outputs.M_n.iter_mut().zip(&nominal.M_n) {
             *output = *M_n;
         }
+    }
+
+    /// A nominal without joints of its own: the robot at rest at `q` (rad), M_n 0.
+    #[inline]
+    pub(crate) fn no_nominal(&mut self, q: &Vector3<Real>) {
+        let outputs = &mut *self.outputs;
+        outputs.q_n = self.origin.map_or(*q, |origin| origin.q() + q).into();
+        outputs.dq_n = [0.0; 3];
+        outputs.e_q = [0.0; 3];
+        outputs.M_n = [0.0; 9];
+    }
+
+    /// Both.
+    pub(crate) fn done(&mut self, done: &Done) {
+        self.handle(&done.handle);
+        self.nominal(&done.nominal);
+    }
+}
+
+impl ArmLaw {
+    /// What is known after a tick that the law has shown: the handle at `pose`, what the hand does, and what supervision says;
+    /// without it, that the law does what `engage` and `hold` say.
+    #[inline]
+    pub(super) fn show(
+        &self,
+        pose: &Pose,
+        ft: &Conditioned,
+        status: &Status,
+        outputs: &mut ArmOutputs,
+    ) {
+        outputs.p = self.origin().map_or(pose.p, |p_0| p_0 + pose.p).into();
+        outputs.sigma_min = pose.sigma_min;
+        let stiff_hand = self.stiff_hand.known();
         outputs.stiff_hand_detected = stiff_hand.detected.into();
         outputs.stiff_hand_D = stiff_hand.D.into();
         outputs.stiff_hand_k_h = stiff_hand.k_h.into();
-        outputs.encoder_fault = encoder.map_or(0, encoder::Fault::number);
         outputs.diagnostic = status.diagnostic.number();
         outputs.first_fault = status.first_fault.number();
         outputs.authority = status.authority;
@@ -106,7 +116,6 @@ impl ArmLaw {
             State::Engaged | State::Hold if is_in_debt => DEBT,
             state => state.number(),
         };
-        outputs.share = outcome.share;
         self.show_hand(ft, outputs);
     }
 
@@ -120,6 +129,7 @@ impl ArmLaw {
     }
 
     /// What is known of the hand.
+    #[inline]
     pub(super) fn show_hand(&self, ft: &Conditioned, outputs: &mut ArmOutputs) {
         outputs.ft_f_h = ft.hand.force.into();
         outputs.ft_moment = ft.hand.torque.into();
