@@ -1,14 +1,20 @@
 //! N axes, without a ledger: what several scalars do at one tick.
 
+mod columns;
 mod within;
 
-use crate::axis::{Axis, AxisProposal, AxisRequest, AxisSensed, Driven};
-use crate::bounds::Bounds;
+pub use columns::{AxesDriven, AxesProposal, AxesSensed};
+
+use crate::axis::Axis;
+use crate::bounds::{Bounds, Interval};
+use crate::law::Yields;
+use crate::midpoint::{self, slower};
 use crate::motion::Sampling;
+use crate::real::{floored, sat};
 use crate::servo::{Drivable, Drive};
 use crate::settling::Keep;
 use crate::tick::{Coordinates, Tick};
-use crate::{Gains, ParameterError, Real, Settings, real};
+use crate::{Gains, ParameterError, Real, Settings, real, retune, timing};
 use nalgebra::SVector;
 
 /// N axes of the law between two ticks. They start out of the loop; the first tick engages them with q_n = q and v_n = 0.
@@ -19,7 +25,24 @@ pub struct Axes<const N: usize> {
     sampling: Sampling,
     tuning_ticks: u32,
     axes: SVector<Axis, N>,
+    /// whether any of them has bounds
+    bounded: bool,
+    /// whether their springs keep to a force
+    limited: bool,
     engaged: bool,
+    /// the last tick in the loop
+    last: Last<N>,
+}
+
+/// What is remembered of a tick.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+struct Last<const N: usize> {
+    q: SVector<Real, N>,
+    dq: SVector<Real, N>,
+    /// where the nominals go from there, m and m/s
+    q_n: SVector<Real, N>,
+    v_n: SVector<Real, N>,
 }
 
 /// What is asked of the law at a tick, beside its inputs.
@@ -60,13 +83,10 @@ impl<const N: usize> Request<N> {
         }
     }
 
-    /// The part of it that is about axis `i`, from 0.
-    fn of(&self, i: usize) -> AxisRequest {
-        AxisRequest {
-            hold: self.hold,
-            damping: self.damping[i],
-            speed: self.speed[i],
-        }
+    /// Whether the nominals may move as they like, but for their bounds.
+    #[inline]
+    fn leaves_free(&self) -> bool {
+        !self.hold && self.speed.iter().all(|speed| *speed == Real::INFINITY)
     }
 }
 
@@ -83,7 +103,15 @@ impl<const N: usize> Axes<N> {
             sampling: Sampling::new(&settings),
             tuning_ticks: settings.tuning_ticks(),
             axes: SVector::from(gains).map(|gains| Axis::new(&settings, gains)),
+            bounded: false,
+            limited: settings.law.row().spring == Yields::Force,
             engaged: false,
+            last: Last {
+                q: SVector::zeros(),
+                dq: SVector::zeros(),
+                q_n: SVector::zeros(),
+                v_n: SVector::zeros(),
+            },
         })
     }
 
@@ -98,6 +126,7 @@ impl<const N: usize> Axes<N> {
         for (axis, bounds) in self.axes.iter_mut().zip(bounds) {
             axis.bound(bounds);
         }
+        self.bounded = self.axes.iter().any(|axis| axis.bounds.is_some());
         Ok(())
     }
 
@@ -115,14 +144,134 @@ impl<const N: usize> Axes<N> {
         }
         Ok(())
     }
+
+    /// What is sensed where a tick does not come in time, gains are on their way, or velocities pass a filter; the springs
+    /// have not slipped yet.
+    #[cold]
+    #[inline(never)]
+    fn sense_otherwise(&self, q: &SVector<Real, N>, after: Real) -> AxesSensed<N> {
+        let Self {
+            settings,
+            sampling,
+            axes,
+            last,
+            ..
+        } = self;
+        let mut sensed = AxesSensed {
+            q: *q,
+            dq: SVector::from_fn(|i, _| sampling.dq(last.q[i], last.dq[i], q[i], after)),
+            e: SVector::zeros(),
+            v_n: last.v_n,
+        };
+        for i in 0..N {
+            let q_n = if after == 1.0 {
+                last.q_n[i]
+            } else {
+                let way = timing::more(after) * settings.T * last.v_n[i];
+                Bounds::kept(axes[i].bounds.as_ref(), last.q_n[i], way)
+            };
+            sensed.e[i] = q_n - q[i];
+            if let Some(gains) = axes[i].changed_from() {
+                let (e, v_n) = (sensed.e[i], sensed.v_n[i]);
+                (sensed.e[i], sensed.v_n[i]) =
+                    retune::taken_over(settings.law, gains, axes[i].gains(), e, v_n);
+            }
+        }
+        sensed
+    }
+
+    /// Energy of the spring of axis `i`, from 0, at the extension `e` (m), J.
+    #[inline]
+    fn spring(&self, i: usize, e: Real) -> Real {
+        let spring = &self.axes[i].rule.spring;
+        if self.limited {
+            spring.energy(e)
+        } else {
+            spring.quadratic(e)
+        }
+    }
+
+    /// Whether gains are on their way.
+    #[inline]
+    fn is_tuning(&self) -> bool {
+        self.axes.iter().any(|axis| axis.changed_from().is_some())
+    }
+
+    /// Velocities that the nominals may have that are `sensed`.
+    #[cold]
+    #[inline(never)]
+    fn intervals(&self, sensed: &AxesSensed<N>, request: &Request<N>) -> [Interval; N] {
+        core::array::from_fn(|i| {
+            let bounds = self.axes[i].bounds.as_ref();
+            Interval::within(
+                bounds,
+                sensed.q[i] + sensed.e[i],
+                self.settings.T,
+                request.hold,
+            )
+            .no_faster_than(request.speed[i])
+        })
+    }
+
+    /// How the nominals move that feel the forces `f` (N), which the robot gets.
+    #[cold]
+    #[inline(never)]
+    fn driven_by(&self, proposal: &AxesProposal<N>, f: &SVector<Real, N>) -> AxesDriven<N> {
+        let mut driven = proposal.wish;
+        for i in 0..N {
+            if f[i] != proposal.f_demand[i] {
+                let (rule, y_s) = (&self.axes[i].rule, self.axes[i].y(f[i]));
+                let free = rule.driven(&proposal.sample(i), y_s);
+                driven.v_m[i] = proposal.interval[i].keep(free);
+                driven.held[i] = driven.v_m[i] != free;
+            }
+        }
+        driven
+    }
+
+    /// The nominals move on as `driven`; where one is set back to `v_b` (m/s), it is so if that has no more energy.
+    #[inline]
+    fn move_on(
+        &mut self,
+        proposal: &AxesProposal<N>,
+        driven: &AxesDriven<N>,
+        v_b: Option<&[Option<Real>; N]>,
+    ) {
+        let Self { settings, axes, .. } = self;
+        let mut v_n = SVector::<Real, N>::from_fn(|i, _| {
+            midpoint::end(proposal.sensed.v_n[i], driven.v_m[i])
+        });
+        if driven.is_held() {
+            for i in 0..N {
+                if driven.held[i] {
+                    v_n[i] = slower(v_n[i], driven.v_m[i]);
+                }
+            }
+        }
+        if let Some(v_b) = v_b {
+            for i in 0..N {
+                v_n[i] = v_b[i].map_or(v_n[i], |v_b| slower(v_n[i], v_b));
+            }
+        }
+        self.last = Last {
+            q: proposal.sensed.q,
+            dq: proposal.sensed.dq,
+            q_n: proposal.q_n() + driven.v_m * settings.T,
+            v_n: v_n.map(floored),
+        };
+        for axis in axes.iter_mut() {
+            axis.pass(settings);
+        }
+        self.engaged = true;
+    }
 }
 
 impl<const N: usize> Coordinates<N> for Axes<N> {
     type Place = SVector<Real, N>;
     type Request = Request<N>;
-    type Sensed = [AxisSensed; N];
-    type Proposal = [AxisProposal; N];
-    type Driven = [Driven; N];
+    type Sensed = AxesSensed<N>;
+    type Proposal = AxesProposal<N>;
+    type Driven = AxesDriven<N>;
 
     fn settings(&self) -> &Settings {
         &self.settings
@@ -133,98 +282,143 @@ impl<const N: usize> Coordinates<N> for Axes<N> {
     }
 
     #[inline]
-    fn sense(&self, q: &SVector<Real, N>, after: Real) -> [AxisSensed; N] {
-        if self.engaged {
-            each(|i| self.axes[i].sense(q[i], after, &self.settings, &self.sampling))
+    #[expect(clippy::eq_op, reason = "q_n - q: 0, and no number where q is none")]
+    fn sense(&self, q: &SVector<Real, N>, after: Real) -> AxesSensed<N> {
+        let last = &self.last;
+        let mut sensed = if !self.engaged {
+            // q_n = q, v_n = 0, nothing is known of the motion.
+            AxesSensed {
+                q: *q,
+                dq: SVector::zeros(),
+                e: q - q,
+                v_n: SVector::zeros(),
+            }
+        } else if after == 1.0 && !self.sampling.is_filtered() && !self.is_tuning() {
+            AxesSensed {
+                q: *q,
+                dq: (q - last.q) / self.settings.T,
+                e: last.q_n - q,
+                v_n: last.v_n,
+            }
         } else {
-            each(|i| self.axes[i].engage(q[i]))
+            self.sense_otherwise(q, after)
+        };
+        for i in 0..N {
+            sensed.e[i] = self.axes[i].rule.spring.slipped(sensed.e[i]);
         }
+        sensed
     }
 
     #[inline]
-    fn stored(&self, sensed: &[AxisSensed; N]) -> Real {
-        sum::<N>(|i| self.axes[i].stored(&sensed[i]))
+    fn stored(&self, sensed: &AxesSensed<N>) -> Real {
+        sum::<N>(|i| {
+            let rule = &self.axes[i].rule;
+            rule.mass.energy(sensed.v_n[i]) + self.spring(i, sensed.e[i])
+        })
     }
 
-    fn springs(&self, sensed: &[AxisSensed; N]) -> Real {
-        sum::<N>(|i| self.axes[i].spring(&sensed[i]))
+    fn springs(&self, sensed: &AxesSensed<N>) -> Real {
+        sum::<N>(|i| self.spring(i, sensed.e[i]))
     }
 
-    fn masses(&self, sensed: &[AxisSensed; N]) -> Real {
-        sum::<N>(|i| self.axes[i].mass(&sensed[i]))
+    fn masses(&self, sensed: &AxesSensed<N>) -> Real {
+        sum::<N>(|i| self.axes[i].rule.mass.energy(sensed.v_n[i]))
     }
 
-    fn reduce(&self, sensed: &mut [AxisSensed; N], keep: Keep) {
-        for axis in sensed {
-            axis.reduce(keep.e, keep.v_n);
-        }
+    fn reduce(&self, sensed: &mut AxesSensed<N>, keep: Keep) {
+        sensed.e *= keep.e;
+        sensed.v_n *= keep.v_n;
     }
 
     #[inline]
     fn propose(
         &self,
-        sensed: &[AxisSensed; N],
+        sensed: &AxesSensed<N>,
         f_h: &SVector<Real, N>,
         request: &Request<N>,
-    ) -> [AxisProposal; N] {
-        let T = self.settings.T;
-        each(|i| self.axes[i].propose(&sensed[i], f_h[i], &request.of(i), T))
-    }
-
-    #[inline]
-    fn f(&self, proposal: &[AxisProposal; N]) -> SVector<Real, N> {
-        SVector::from_fn(|i, _| self.axes[i].f(&proposal[i]))
-    }
-
-    #[inline]
-    fn driven(&self, proposal: &[AxisProposal; N], f: &SVector<Real, N>) -> [Driven; N] {
-        if self.settings.law.row().feels_what_is_delivered() {
-            each(|i| self.axes[i].driven(&proposal[i], f[i]))
+    ) -> AxesProposal<N> {
+        let damping = &request.damping;
+        let sample = |i: usize| sensed.sample(i, f_h[i], damping[i]);
+        let free = SVector::from_fn(|i, _| self.axes[i].rule.coupled(&sample(i)));
+        let is_free = !self.bounded && request.leaves_free();
+        let (interval, wish) = if is_free {
+            let held = [false; N];
+            ([Interval::ALL; N], AxesDriven { v_m: free, held })
         } else {
-            each(|i| proposal[i].wish())
+            let interval = self.intervals(sensed, request);
+            (interval, AxesDriven::within(&interval, &free))
+        };
+        AxesProposal {
+            sensed: *sensed,
+            f_h: *f_h,
+            damping: *damping,
+            interval,
+            wish,
+            f_demand: SVector::from_fn(|i, _| {
+                let rule = &self.axes[i].rule;
+                rule.gains.K * rule.coupling(&sample(i), wish.v_m[i])
+            }),
         }
+    }
+
+    #[inline]
+    fn f(&self, proposal: &AxesProposal<N>) -> SVector<Real, N> {
+        SVector::from_fn(|i, _| sat(proposal.f_demand[i], self.axes[i].gains().f_max))
+    }
+
+    #[inline]
+    fn driven(&self, proposal: &AxesProposal<N>, f: &SVector<Real, N>) -> AxesDriven<N> {
+        let feels = self.settings.law.row().feels_what_is_delivered();
+        if !feels || *f == proposal.f_demand {
+            return proposal.wish;
+        }
+        self.driven_by(proposal, f)
     }
 
     #[inline]
     fn taken(
         &self,
-        proposal: &[AxisProposal; N],
-        driven: &[Driven; N],
+        proposal: &AxesProposal<N>,
+        driven: &AxesDriven<N>,
         f: &SVector<Real, N>,
     ) -> Real {
-        sum::<N>(|i| self.axes[i].taken(&proposal[i], driven[i], f[i]))
+        sum::<N>(|i| {
+            let (rule, sample) = (&self.axes[i].rule, proposal.sample(i));
+            rule.taken(&sample, f[i], driven.v_m[i]) + self.spring(i, sample.e)
+        })
     }
 
     #[inline]
-    fn supplied(&self, proposal: &[AxisProposal; N], driven: &[Driven; N]) -> Real {
-        sum::<N>(|i| self.axes[i].supplied(&proposal[i], driven[i]))
+    fn supplied(&self, proposal: &AxesProposal<N>, driven: &AxesDriven<N>) -> Real {
+        sum::<N>(|i| self.axes[i].rule.supplied(proposal.f_h[i], driven.v_m[i]))
     }
 
     #[inline]
-    fn exchanged(&self, proposal: &[AxisProposal; N], driven: &[Driven; N]) -> Real {
-        sum::<N>(|i| self.axes[i].exchanged(&proposal[i], driven[i]))
+    fn exchanged(&self, proposal: &AxesProposal<N>, driven: &AxesDriven<N>) -> Real {
+        let dq = &proposal.sensed.dq;
+        sum::<N>(|i| self.axes[i].rule.exchanged(dq[i], driven.v_m[i]))
     }
 
     #[inline]
-    fn show(&self, proposal: &[AxisProposal; N], driven: &[Driven; N], tick: &mut Tick<N>) {
-        tick.held = false;
-        for i in 0..N {
-            tick.f_demand[i] = proposal[i].f_demand();
-            tick.q_n[i] = proposal[i].q_n();
-            tick.dq_n[i] = proposal[i].dq_n();
-            tick.e_nr[i] = proposal[i].e_nr();
-            tick.dq[i] = proposal[i].dq();
-            tick.held |= driven[i].held;
+    fn show(&self, proposal: &AxesProposal<N>, driven: &AxesDriven<N>, tick: &mut Tick<N>) {
+        let AxesSensed { dq, e, v_n, .. } = &proposal.sensed;
+        tick.f_demand = proposal.f_demand;
+        tick.q_n = proposal.q_n();
+        (tick.dq_n, tick.e_nr, tick.dq) = (*v_n, *e, *dq);
+        tick.held = driven.is_held();
+    }
+
+    #[inline]
+    fn commit(&mut self, proposal: &AxesProposal<N>, driven: &AxesDriven<N>, f: &SVector<Real, N>) {
+        if !self.settings.law.row().slips() || *f == proposal.f_demand {
+            return self.move_on(proposal, driven, None);
         }
-    }
-
-    #[inline]
-    fn commit(&mut self, proposal: &[AxisProposal; N], driven: &[Driven; N], f: &SVector<Real, N>) {
-        let slips = self.settings.law.row().slips();
-        for i in 0..N {
-            self.axes[i].commit(&proposal[i], driven[i], f[i], slips, &self.settings);
-        }
-        self.engaged = true;
+        let v_b = core::array::from_fn(|i| {
+            let axis = &self.axes[i];
+            let limited = f[i] != proposal.f_demand[i];
+            limited.then(|| axis.rule.at_the_bound(&proposal.sample(i), axis.y(f[i])))
+        });
+        self.move_on(proposal, driven, Some(&v_b));
     }
 
     fn rest(&mut self) {
@@ -245,27 +439,18 @@ impl<const N: usize> Drivable<N> for Axes<N> {
         }
     }
 
-    fn v_m(&self, driven: &[Driven; N]) -> SVector<Real, N> {
-        SVector::from_fn(|i, _| driven[i].v_m)
+    fn v_m(&self, driven: &AxesDriven<N>) -> SVector<Real, N> {
+        driven.v_m
     }
 
     fn follow(
         &mut self,
-        proposal: &[AxisProposal; N],
-        driven: &[Driven; N],
+        proposal: &AxesProposal<N>,
+        driven: &AxesDriven<N>,
         v_b: &[Option<Real>; N],
     ) {
-        for i in 0..N {
-            self.axes[i].follow(&proposal[i], driven[i], v_b[i], &self.settings);
-        }
-        self.engaged = true;
+        self.move_on(proposal, driven, Some(v_b));
     }
-}
-
-/// One of something for each axis, from 0.
-#[inline]
-fn each<T, const N: usize>(of: impl FnMut(usize) -> T) -> [T; N] {
-    core::array::from_fn(of)
 }
 
 /// The sum of something over N axes, from 0.

@@ -79,7 +79,7 @@ impl Desired {
 
     /// The model moves on from `q_n` (m) with the velocity `v_m` (m/s) in the middle of the `sample`.
     pub fn advance(&mut self, q_n: Real, sample: &Sample, v_m: Real) {
-        self.v_n = floored(midpoint::end(sample, v_m));
+        self.v_n = floored(midpoint::end(sample.v_n, v_m));
         self.q_n = Some(q_n + self.settings.T * v_m);
     }
 

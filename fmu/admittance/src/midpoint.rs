@@ -53,15 +53,6 @@ pub struct Sample {
     pub damping: Real,
 }
 
-/// What one sample of the law arrives at.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Midpoint {
-    /// Nominal velocity at the middle of the sample, m/s.
-    pub v_m: Real,
-    /// PI output at the middle of the sample, m/s.
-    pub y: Real,
-}
-
 impl Rule {
     /// That of `gains` under `settings`.
     pub fn new(settings: &Settings, gains: &Gains) -> Self {
@@ -90,23 +81,21 @@ impl Rule {
         self.gains.D_n + sample.damping
     }
 
-    /// Nominal and coupling solved together: the nominal feels alpha·y. With alpha = 0 it feels nothing.
+    /// Nominal and coupling solved together: the nominal feels alpha·y. With alpha = 0 it feels nothing. Returns v_m (m/s); y is
+    /// its [`coupling`](Self::coupling).
     ///
     /// c = alpha(1 + K_P T/2)
     /// v_m = (2 M_n v_n/T + f_h + alpha(dq + K_P T dq/2 − K_P e)) / (2 M_n/T + D_n + c)
-    /// y = (v_m − dq) + K_P(e + T(v_m − dq)/2)
     #[inline]
-    pub fn coupled(&self, sample: &Sample) -> Midpoint {
+    pub fn coupled(&self, sample: &Sample) -> Real {
         let Self {
             T, alpha, M_2, KPT, ..
         } = *self;
         let Sample {
             e, v_n, dq, f_h, ..
         } = *sample;
-        let v_m = (M_2 * v_n / T + f_h + alpha * (dq + KPT * dq / 2.0 - self.gains.K_P * e))
-            / (self.M_2T + self.D_n(sample) + self.c);
-        let y = self.coupling(sample, v_m);
-        Midpoint { v_m, y }
+        (M_2 * v_n / T + f_h + alpha * (dq + KPT * dq / 2.0 - self.gains.K_P * e))
+            / (self.M_2T + self.D_n(sample) + self.c)
     }
 
     /// What multiplies v_m in the nominal's equation, N·s/m: that of [`coupled`](Self::coupled), or of
@@ -154,8 +143,8 @@ impl Rule {
 
     /// Energy (K/alpha) f_h v_m T that the human's port brings in a sample, J. 0 for alpha = 0.
     #[inline]
-    pub fn supplied(&self, sample: &Sample, v_m: Real) -> Real {
-        self.port * sample.f_h * v_m * self.T
+    pub fn supplied(&self, f_h: Real, v_m: Real) -> Real {
+        self.port * f_h * v_m * self.T
     }
 
     /// The terms of the energy that passes the coupling in a sample, at their sizes, J: y is a difference of them, and their
@@ -163,27 +152,25 @@ impl Rule {
     ///
     /// K T (1 + K_P T/2)(v_m² + dq²)
     #[inline]
-    pub fn exchanged(&self, sample: &Sample, v_m: Real) -> Real {
-        self.exchange * (v_m * v_m + sample.dq * sample.dq)
+    pub fn exchanged(&self, dq: Real, v_m: Real) -> Real {
+        self.exchange * (v_m * v_m + dq * dq)
     }
 
     /// Energy (J) that the law is sure to take in a sample over which the robot gets the force `f` (N), while the nominal
-    /// feels it and moves with `v_m` (m/s): what the human brings less what the nominal keeps, its damping, and the spring,
-    /// which can be given up afterwards.
+    /// feels it and moves with `v_m` (m/s), but for the energy of the spring, which can be given up afterwards: what the human
+    /// brings less what the nominal keeps, and its damping.
     ///
     /// −ΔH + (K/alpha) f_h v_m T ≥ K y v_m T + (K/alpha) D_n v_m² T + ½ K K_P e²
     #[inline]
     pub fn taken(&self, sample: &Sample, f: Real, v_m: Real) -> Real {
-        f * v_m * self.T
-            + self.port * self.D_n(sample) * v_m * v_m * self.T
-            + self.spring.energy(sample.e)
+        f * v_m * self.T + self.port * self.D_n(sample) * v_m * v_m * self.T
     }
 }
 
-/// Nominal velocity at the end of a sample over which its mean is `v_m` (m/s): v_n⁺ = 2 v_m − v_n.
+/// Nominal velocity at the end of a sample that begins with `v_n` and over which its mean is `v_m` (m/s): v_n⁺ = 2 v_m − v_n.
 #[inline]
-pub fn end(sample: &Sample, v_m: Real) -> Real {
-    2.0 * v_m - sample.v_n
+pub fn end(v_n: Real, v_m: Real) -> Real {
+    2.0 * v_m - v_n
 }
 
 /// `other` in place of the velocity `v` where it holds no more energy.

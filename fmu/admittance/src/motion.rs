@@ -47,6 +47,12 @@ impl Sampling {
         }
     }
 
+    /// Whether velocities pass a filter.
+    #[inline]
+    pub(crate) fn is_filtered(&self) -> bool {
+        self.low_pass.is_some()
+    }
+
     /// The velocity at the position `q` (m), which was read `after` sample periods after the position `last` with the
     /// velocity `dq` (m/s).
     #[inline]

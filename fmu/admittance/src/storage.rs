@@ -53,15 +53,20 @@ impl Spring {
     /// ½ K K_P e², and from |e| = f_max/(K K_P) on, where it is limited, f_max(|e| − f_max/(2 K K_P)).
     #[inline]
     pub fn energy(&self, e: Real) -> Real {
-        let Self {
-            k, half_k, f_limit, ..
-        } = *self;
+        let Self { k, f_limit, .. } = *self;
         let x = real::abs(e);
         if k * x > f_limit {
             f_limit * (x - f_limit / (2.0 * k))
         } else {
-            half_k * x * x
+            self.quadratic(e)
         }
+    }
+
+    /// The same where it is not limited.
+    #[inline]
+    pub fn quadratic(&self, e: Real) -> Real {
+        let x = real::abs(e);
+        self.half_k * x * x
     }
 
     /// The extension |e| (m) at which it holds `energy` (J): the inverse of [`energy`](Self::energy).

@@ -1,8 +1,7 @@
 //! Axes that edges bound together: [`crate::edges`].
 
-use super::Axes;
+use super::{Axes, AxesDriven, AxesProposal};
 use crate::Real;
-use crate::axis::{AxisProposal, Driven};
 use crate::edges::{Edge, keeps, kept};
 use nalgebra::SVector;
 
@@ -11,14 +10,16 @@ impl<const N: usize> Axes<N> {
     pub fn keep_within<const E: usize>(
         &self,
         edges: &[Edge<N>; E],
-        proposal: &mut [AxisProposal; N],
+        proposal: &mut AxesProposal<N>,
     ) {
-        if keeps(edges, &velocities(&proposal.map(|axis| axis.wish()))) {
+        if keeps(edges, &proposal.wish.v_m) {
             return;
         }
-        let wish = self.within(edges, proposal, |_| None);
-        for ((axis, proposal), wish) in self.axes.iter().zip(proposal).zip(wish) {
-            axis.moved(proposal, wish);
+        proposal.wish = self.within(edges, proposal, None);
+        for i in 0..N {
+            let rule = &self.axes[i].rule;
+            proposal.f_demand[i] =
+                rule.gains.K * rule.coupling(&proposal.sample(i), proposal.wish.v_m[i]);
         }
     }
 
@@ -29,41 +30,42 @@ impl<const N: usize> Axes<N> {
     pub fn driven_within<const E: usize>(
         &self,
         edges: impl FnOnce() -> [Edge<N>; E],
-        proposal: &[AxisProposal; N],
-        driven: [Driven; N],
+        proposal: &AxesProposal<N>,
+        driven: AxesDriven<N>,
         f: &SVector<Real, N>,
-    ) -> [Driven; N] {
+    ) -> AxesDriven<N> {
         let feels = self.settings.law.row().feels_what_is_delivered();
-        if !feels || (0..N).all(|i| f[i] == proposal[i].f_demand()) {
+        if !feels || *f == proposal.f_demand {
             return driven; // as proposed
         }
         let edges = edges();
-        let is_held = proposal.iter().any(|axis| axis.wish().held);
-        if !is_held && keeps(&edges, &velocities(&driven)) {
+        if !proposal.wish.is_held() && keeps(&edges, &driven.v_m) {
             return driven;
         }
-        self.within(&edges, proposal, |i| Some(f[i]))
+        self.within(&edges, proposal, Some(f))
     }
 
+    /// The nominals' velocities within `edges`: while they feel all of K y, or the forces `felt` (N). Each counts with its share
+    /// K A of W.
     fn within<const E: usize>(
         &self,
         edges: &[Edge<N>; E],
-        proposal: &[AxisProposal; N],
-        felt: impl Fn(usize) -> Option<Real>,
-    ) -> [Driven; N] {
+        proposal: &AxesProposal<N>,
+        felt: Option<&SVector<Real, N>>,
+    ) -> AxesDriven<N> {
         let (mut free, mut weight) = (SVector::zeros(), SVector::zeros());
         for i in 0..N {
-            (free[i], weight[i]) = self.axes[i].free(&proposal[i], felt(i));
+            let (axis, sample) = (&self.axes[i], proposal.sample(i));
+            free[i] = match felt {
+                None => axis.rule.coupled(&sample),
+                Some(f) => axis.rule.driven(&sample, axis.y(f[i])),
+            };
+            weight[i] = axis.gains().K * axis.rule.inertia(&sample, felt.is_none());
         }
-        let intervals = core::array::from_fn(|i| proposal[i].interval());
-        let v_m = kept(edges, &intervals, &weight, &free);
-        core::array::from_fn(|i| Driven {
-            v_m: v_m[i],
-            held: v_m[i] != free[i],
-        })
+        let v_m = kept(edges, &proposal.interval, &weight, &free);
+        AxesDriven {
+            v_m,
+            held: core::array::from_fn(|i| v_m[i] != free[i]),
+        }
     }
-}
-
-fn velocities<const N: usize>(driven: &[Driven; N]) -> SVector<Real, N> {
-    SVector::from_fn(|i, _| driven[i].v_m)
 }

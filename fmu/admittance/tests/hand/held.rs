@@ -39,13 +39,13 @@ fn held(watch: &Watch, duration: f64, kick: f64, k_h: impl Fn(f64) -> f64) -> Ve
                 f_h,
                 damping: detector.D(),
             };
-            let done = rule.coupled(&sample);
+            let v_m = rule.coupled(&sample);
             let shown = (t, q, detector.D());
             last = q;
-            q_n += T * done.v_m;
-            v_n = 2.0 * done.v_m - v_n;
+            q_n += T * v_m;
+            v_n = 2.0 * v_m - v_n;
             // Backward Euler: the plant's own damping is below 1e-3 1/s.
-            v += T / M * (gains.K * done.y + f_h);
+            v += T / M * (gains.K * rule.coupling(&sample, v_m) + f_h);
             q += T * v;
             shown
         })

@@ -6,8 +6,8 @@ use crate::signals::{ArmInputs, ArmOutputs};
 use crate::supervision::{self, Demand, Felt, Report, Status};
 use crate::wrench::conditioner::Made;
 use crate::wrench::{Conditioned, TareState};
-use admittance::encoder::{self, Believed};
 use admittance::Real;
+use admittance::encoder::{self, Believed};
 use nalgebra::Vector3;
 
 impl ArmLaw {

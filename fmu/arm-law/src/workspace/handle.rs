@@ -2,7 +2,7 @@
 
 use super::Near;
 use super::edges::EDGES;
-use admittance::axis::{AxisProposal, AxisSensed, Driven};
+use admittance::axes::{AxesDriven, AxesProposal, AxesSensed};
 use admittance::edges::Edge;
 use admittance::settling::Keep;
 use admittance::tick::{Coordinates, Tick};
@@ -22,8 +22,8 @@ pub struct HandleAxes {
 
 impl HandleAxes {
     /// The edges of a nominal that is ahead of the handle as proposed.
-    fn edges(near: &Near, proposal: &[AxisProposal; 3]) -> [Edge<3>; EDGES] {
-        near.edges(&proposal.map(|axis| axis.e_nr()).into())
+    fn edges(near: &Near, proposal: &AxesProposal<3>) -> [Edge<3>; EDGES] {
+        near.edges(proposal.e_nr())
     }
 
     #[cold]
@@ -31,10 +31,10 @@ impl HandleAxes {
     fn propose_within(
         &self,
         near: &Near,
-        sensed: &[AxisSensed; 3],
+        sensed: &AxesSensed<3>,
         f_h: &Vector3<Real>,
         request: &Request<3>,
-    ) -> [AxisProposal; 3] {
+    ) -> AxesProposal<3> {
         let mut proposal = self.axes.propose(sensed, f_h, request);
         let edges = Self::edges(near, &proposal);
         self.axes.keep_within(&edges, &mut proposal);
@@ -46,9 +46,9 @@ impl HandleAxes {
     fn driven_within(
         &self,
         near: &Near,
-        proposal: &[AxisProposal; 3],
+        proposal: &AxesProposal<3>,
         f: &Vector3<Real>,
-    ) -> [Driven; 3] {
+    ) -> AxesDriven<3> {
         let edges = || Self::edges(near, proposal);
         let driven = self.axes.driven(proposal, f);
         self.axes.driven_within(edges, proposal, driven, f)
@@ -58,9 +58,9 @@ impl HandleAxes {
 impl Coordinates<3> for HandleAxes {
     type Place = Vector3<Real>;
     type Request = Request<3>;
-    type Sensed = [AxisSensed; 3];
-    type Proposal = [AxisProposal; 3];
-    type Driven = [Driven; 3];
+    type Sensed = AxesSensed<3>;
+    type Proposal = AxesProposal<3>;
+    type Driven = AxesDriven<3>;
 
     fn settings(&self) -> &Settings {
         self.axes.settings()
@@ -72,34 +72,34 @@ impl Coordinates<3> for HandleAxes {
     }
 
     #[inline]
-    fn sense(&self, p: &Vector3<Real>, after: Real) -> [AxisSensed; 3] {
+    fn sense(&self, p: &Vector3<Real>, after: Real) -> AxesSensed<3> {
         self.axes.sense(p, after)
     }
 
     #[inline]
-    fn stored(&self, sensed: &[AxisSensed; 3]) -> Real {
+    fn stored(&self, sensed: &AxesSensed<3>) -> Real {
         self.axes.stored(sensed)
     }
 
-    fn springs(&self, sensed: &[AxisSensed; 3]) -> Real {
+    fn springs(&self, sensed: &AxesSensed<3>) -> Real {
         self.axes.springs(sensed)
     }
 
-    fn masses(&self, sensed: &[AxisSensed; 3]) -> Real {
+    fn masses(&self, sensed: &AxesSensed<3>) -> Real {
         self.axes.masses(sensed)
     }
 
-    fn reduce(&self, sensed: &mut [AxisSensed; 3], keep: Keep) {
+    fn reduce(&self, sensed: &mut AxesSensed<3>, keep: Keep) {
         self.axes.reduce(sensed, keep);
     }
 
     #[inline]
     fn propose(
         &self,
-        sensed: &[AxisSensed; 3],
+        sensed: &AxesSensed<3>,
         f_h: &Vector3<Real>,
         request: &Request<3>,
-    ) -> [AxisProposal; 3] {
+    ) -> AxesProposal<3> {
         match &self.near {
             None => self.axes.propose(sensed, f_h, request),
             Some(near) => self.propose_within(near, sensed, f_h, request),
@@ -107,12 +107,12 @@ impl Coordinates<3> for HandleAxes {
     }
 
     #[inline]
-    fn f(&self, proposal: &[AxisProposal; 3]) -> Vector3<Real> {
+    fn f(&self, proposal: &AxesProposal<3>) -> Vector3<Real> {
         self.axes.f(proposal)
     }
 
     #[inline]
-    fn driven(&self, proposal: &[AxisProposal; 3], f: &Vector3<Real>) -> [Driven; 3] {
+    fn driven(&self, proposal: &AxesProposal<3>, f: &Vector3<Real>) -> AxesDriven<3> {
         match &self.near {
             None => self.axes.driven(proposal, f),
             Some(near) => self.driven_within(near, proposal, f),
@@ -120,27 +120,27 @@ impl Coordinates<3> for HandleAxes {
     }
 
     #[inline]
-    fn taken(&self, proposal: &[AxisProposal; 3], driven: &[Driven; 3], f: &Vector3<Real>) -> Real {
+    fn taken(&self, proposal: &AxesProposal<3>, driven: &AxesDriven<3>, f: &Vector3<Real>) -> Real {
         self.axes.taken(proposal, driven, f)
     }
 
     #[inline]
-    fn supplied(&self, proposal: &[AxisProposal; 3], driven: &[Driven; 3]) -> Real {
+    fn supplied(&self, proposal: &AxesProposal<3>, driven: &AxesDriven<3>) -> Real {
         self.axes.supplied(proposal, driven)
     }
 
     #[inline]
-    fn exchanged(&self, proposal: &[AxisProposal; 3], driven: &[Driven; 3]) -> Real {
+    fn exchanged(&self, proposal: &AxesProposal<3>, driven: &AxesDriven<3>) -> Real {
         self.axes.exchanged(proposal, driven)
     }
 
     #[inline]
-    fn show(&self, proposal: &[AxisProposal; 3], driven: &[Driven; 3], tick: &mut Tick<3>) {
+    fn show(&self, proposal: &AxesProposal<3>, driven: &AxesDriven<3>, tick: &mut Tick<3>) {
         self.axes.show(proposal, driven, tick);
     }
 
     #[inline]
-    fn commit(&mut self, proposal: &[AxisProposal; 3], driven: &[Driven; 3], f: &Vector3<Real>) {
+    fn commit(&mut self, proposal: &AxesProposal<3>, driven: &AxesDriven<3>, f: &Vector3<Real>) {
         self.axes.commit(proposal, driven, f);
     }
 

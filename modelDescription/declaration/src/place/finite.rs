@@ -109,12 +109,10 @@ impl<M> Place<M, f64> {
     fn sides<T>(&self) -> impl Iterator<Item = Side<M, T>> {
         let (begin, len) = (self.offset, self.len * self.stride);
         let at_once = size_of::<T>() as u32;
-        (0..len)
-            .step_by(size_of::<T>())
-            .map(move |i| Side {
-                offset: begin + i.min(len - at_once),
-                holder: PhantomData,
-            })
+        (0..len).step_by(size_of::<T>()).map(move |i| Side {
+            offset: begin + i.min(len - at_once),
+            holder: PhantomData,
+        })
     }
 
     /// This place and `next` as one, if `next` begins where this one ends and both are stored alike.
