@@ -197,10 +197,11 @@ impl<const N: usize> Axes<N> {
         self.axes.iter().any(|axis| axis.changed_from().is_some())
     }
 
-    /// Velocities that the nominals may have that are `sensed`.
+    /// Velocities that the nominals may have that are `sensed`. This, as all that is seldom called, gets copies: what is not
+    /// pointed at stays in registers.
     #[cold]
     #[inline(never)]
-    fn intervals(&self, sensed: &AxesSensed<N>, request: &Request<N>) -> [Interval; N] {
+    fn intervals(&self, sensed: AxesSensed<N>, request: Request<N>) -> [Interval; N] {
         core::array::from_fn(|i| {
             let bounds = self.axes[i].bounds.as_ref();
             Interval::within(
@@ -216,7 +217,7 @@ impl<const N: usize> Axes<N> {
     /// How the nominals move that feel the forces `f` (N), which the robot gets.
     #[cold]
     #[inline(never)]
-    fn driven_by(&self, proposal: &AxesProposal<N>, f: &SVector<Real, N>) -> AxesDriven<N> {
+    fn driven_by(&self, proposal: AxesProposal<N>, f: SVector<Real, N>) -> AxesDriven<N> {
         let mut driven = proposal.wish;
         for i in 0..N {
             if f[i] != proposal.f_demand[i] {
@@ -229,8 +230,19 @@ impl<const N: usize> Axes<N> {
         driven
     }
 
+    /// Where the nominals are set back to while they feel the forces `f` (N), which are not all what was asked for.
+    #[cold]
+    #[inline(never)]
+    fn at_the_bounds(&self, proposal: AxesProposal<N>, f: SVector<Real, N>) -> [Option<Real>; N] {
+        core::array::from_fn(|i| {
+            let axis = &self.axes[i];
+            let limited = f[i] != proposal.f_demand[i];
+            limited.then(|| axis.rule.at_the_bound(&proposal.sample(i), axis.y(f[i])))
+        })
+    }
+
     /// The nominals move on as `driven`; where one is set back to `v_b` (m/s), it is so if that has no more energy.
-    #[inline]
+    #[inline(always)]
     fn move_on(
         &mut self,
         proposal: &AxesProposal<N>,
@@ -309,7 +321,7 @@ impl<const N: usize> Coordinates<N> for Axes<N> {
         sensed
     }
 
-    #[inline]
+    #[inline(always)]
     fn stored(&self, sensed: &AxesSensed<N>) -> Real {
         sum::<N>(|i| {
             let rule = &self.axes[i].rule;
@@ -330,7 +342,7 @@ impl<const N: usize> Coordinates<N> for Axes<N> {
         sensed.v_n *= keep.v_n;
     }
 
-    #[inline]
+    #[inline(always)]
     fn propose(
         &self,
         sensed: &AxesSensed<N>,
@@ -345,7 +357,7 @@ impl<const N: usize> Coordinates<N> for Axes<N> {
             let held = [false; N];
             ([Interval::ALL; N], AxesDriven { v_m: free, held })
         } else {
-            let interval = self.intervals(sensed, request);
+            let interval = self.intervals(*sensed, *request);
             (interval, AxesDriven::within(&interval, &free))
         };
         AxesProposal {
@@ -366,16 +378,16 @@ impl<const N: usize> Coordinates<N> for Axes<N> {
         SVector::from_fn(|i, _| sat(proposal.f_demand[i], self.axes[i].gains().f_max))
     }
 
-    #[inline]
+    #[inline(always)]
     fn driven(&self, proposal: &AxesProposal<N>, f: &SVector<Real, N>) -> AxesDriven<N> {
         let feels = self.settings.law.row().feels_what_is_delivered();
         if !feels || *f == proposal.f_demand {
             return proposal.wish;
         }
-        self.driven_by(proposal, f)
+        self.driven_by(*proposal, *f)
     }
 
-    #[inline]
+    #[inline(always)]
     fn taken(
         &self,
         proposal: &AxesProposal<N>,
@@ -413,11 +425,7 @@ impl<const N: usize> Coordinates<N> for Axes<N> {
         if !self.settings.law.row().slips() || *f == proposal.f_demand {
             return self.move_on(proposal, driven, None);
         }
-        let v_b = core::array::from_fn(|i| {
-            let axis = &self.axes[i];
-            let limited = f[i] != proposal.f_demand[i];
-            limited.then(|| axis.rule.at_the_bound(&proposal.sample(i), axis.y(f[i])))
-        });
+        let v_b = self.at_the_bounds(*proposal, *f);
         self.move_on(proposal, driven, Some(&v_b));
     }
 
@@ -454,7 +462,7 @@ impl<const N: usize> Drivable<N> for Axes<N> {
 }
 
 /// The sum of something over N axes, from 0.
-#[inline]
+#[inline(always)]
 fn sum<const N: usize>(mut of: impl FnMut(usize) -> Real) -> Real {
     let mut sum = -0.0; // as the sum of an iterator begins
     for i in 0..N {

@@ -97,7 +97,7 @@ impl<const N: usize> SampleReach<N> {
                 let by_acceleration = last.map_or(by_speed, |last| {
                     f * last[i] + Real::from(n) * force * reach.a_max[i] * T * T
                 });
-                work += real::min(by_speed, by_acceleration);
+                work += real::at_most(by_acceleration, by_speed);
             }
         }
         work

@@ -3,6 +3,8 @@
 //! [`Real`] is `f64` in the package `admittance` and `f32` in `admittance-f32`, which compiles the same sources. The
 //! functions are those of `libm`, called directly: the same digits on every platform, with and without `std`.
 
+use nalgebra::SVector;
+
 /// The law's number: double precision, or single precision in the packages and libraries named f32.
 #[cfg(not(feature = "f32"))]
 pub type Real = f64;
@@ -72,6 +74,13 @@ pub fn sat(x: Real, bound: Real) -> Real {
     }
 }
 
+/// `x`, but not above `bound`; what is no number is `bound`. One instruction, where [`min`] is seven: it knows which of the two
+/// may be none.
+#[inline]
+pub fn at_most(x: Real, bound: Real) -> Real {
+    if x < bound { x } else { bound }
+}
+
 /// a/b where `holds`, else 0. It divides by what `holds` allows only: a compiler may else compute the quotient in any
 /// case and then choose, and a host may trap a division by 0.
 #[inline]
@@ -80,10 +89,13 @@ pub fn quotient_if(holds: bool, a: Real, b: Real) -> Real {
     if holds { a / b } else { 0.0 }
 }
 
-/// Whether all of `numbers` are finite: 0·x is 0 for these alone.
+/// Whether all numbers of `vectors` are finite: 0·x is 0 for these alone.
 #[inline]
-pub fn are_finite<'a>(numbers: impl IntoIterator<Item = &'a Real>) -> bool {
-    numbers.into_iter().fold(0.0, |sum, x| sum + 0.0 * x) == 0.0
+pub fn are_finite<const N: usize, const M: usize>(vectors: [&SVector<Real, N>; M]) -> bool {
+    let none = vectors
+        .into_iter()
+        .fold(SVector::zeros(), |none, x| none + x * 0.0);
+    none.iter().fold(0.0, |sum, x| sum + x) == 0.0
 }
 
 /// Zero in place of a decaying state that would otherwise reach the denormal numbers, where arithmetic is slow. It only

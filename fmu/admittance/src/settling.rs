@@ -70,11 +70,26 @@ impl<const N: usize> Ledger<N> {
         let H = law.stored(sensed);
         let created = self.created(H, q);
         if self.terms.kept && !(created <= self.tank) {
-            let keep = self.affordable(law.springs(sensed), law.masses(sensed), q);
-            law.reduce(sensed, keep);
-            return self.close(law.stored(sensed), q);
+            let (kept, settlement) = self.settle_reduced(law, *sensed, q);
+            *sensed = kept;
+            return settlement;
         }
         self.closed(H, q, created)
+    }
+
+    /// The same where something is given up: what is left of the law.
+    #[cold]
+    #[inline(never)]
+    fn settle_reduced<L: Coordinates<N>>(
+        &self,
+        law: &L,
+        mut sensed: L::Sensed,
+        q: &SVector<Real, N>,
+    ) -> (L::Sensed, Settlement<N>) {
+        let keep = self.affordable(law.springs(&sensed), law.masses(&sensed), q);
+        law.reduce(&mut sensed, keep);
+        let settlement = self.close(law.stored(&sensed), q);
+        (sensed, settlement)
     }
 
     /// What may be kept at this tick, with the position `q` (m), of the energy that the law stores in its springs and in its
@@ -102,7 +117,8 @@ impl<const N: usize> Ledger<N> {
 
     /// Settles the sample that ends now with the energy `H` (J) that the law stores now and the position `q` (m). Nothing is
     /// given up.
-    #[inline]
+    #[cold]
+    #[inline(never)]
     pub fn close(&self, H: Real, q: &SVector<Real, N>) -> Settlement<N> {
         self.closed(H, q, self.created(H, q))
     }
@@ -161,8 +177,12 @@ impl<const N: usize> Ledger<N> {
         size: impl FnOnce() -> Real,
     ) -> Settlement<N> {
         // With a delay, a force has been said that acts only now: what may cover it is not poured away.
-        let most = real::max(self.terms.E_0, self.reserved(step.as_ref(), outside));
-        let tank = real::min(self.tank - created, most);
+        let most = if self.terms.delayed {
+            self.most_kept(step, outside)
+        } else {
+            self.terms.E_0
+        };
+        let tank = real::at_most(self.tank - created, most);
         Settlement {
             step,
             outside,
@@ -175,6 +195,13 @@ impl<const N: usize> Ledger<N> {
                 0.0
             },
         }
+    }
+
+    /// What the tank may hold after the motion `step` (m) where a force has been said before.
+    #[cold]
+    #[inline(never)]
+    fn most_kept(&self, step: Option<SVector<Real, N>>, outside: bool) -> Real {
+        real::max(self.terms.E_0, self.reserved(step.as_ref(), outside))
     }
 
     /// ΔG, J, of the sample that ends now, with `H` (J) stored now and the position `q` (m).

@@ -15,7 +15,7 @@ pub trait Coordinates<const N: usize> {
     /// What is asked of the nominals beside the human's force.
     type Request;
     /// The law once the place is known.
-    type Sensed;
+    type Sensed: Copy;
     /// What it asks for.
     type Proposal: Copy;
     /// How the nominals move in the sample that begins.

@@ -163,16 +163,29 @@ impl ArmLaw {
             valid: inputs.encoder_valid != 0,
             after,
         };
-        if self.encoders.is_sound(&reading) {
-            self.tick_at(&reading.believed(), after, inputs, outputs)?;
-            self.encoders.keep(&reading);
-        } else {
-            let mut encoders = self.encoders;
-            let believed = encoders.read(&reading, self.counting.is_engaged(), self.law.tau());
-            self.tick_at(&believed, after, inputs, outputs)?;
-            self.encoders = encoders;
+        if !self.encoders.is_sound(&reading) {
+            return self.tick_doubting(reading, inputs, outputs);
         }
+        self.tick_at(&reading.believed(), after, inputs, outputs)?;
+        self.encoders.keep(&reading);
         outputs.timing = timing::of(after);
+        Ok(())
+    }
+
+    /// The same where not all is well with the joint angles.
+    #[cold]
+    #[inline(never)]
+    fn tick_doubting(
+        &mut self,
+        reading: Positions<3>,
+        inputs: &ArmInputs,
+        outputs: &mut ArmOutputs,
+    ) -> Result<(), NotFinite> {
+        let mut encoders = self.encoders;
+        let believed = encoders.read(&reading, self.counting.is_engaged(), self.law.tau());
+        self.tick_at(&believed, reading.after, inputs, outputs)?;
+        self.encoders = encoders;
+        outputs.timing = timing::of(reading.after);
         Ok(())
     }
 
@@ -196,7 +209,7 @@ impl ArmLaw {
     }
 
     /// One tick with what is `believed` of the joint angles.
-    #[inline]
+    #[inline(always)]
     fn tick_at(
         &mut self,
         believed: &Believed<3>,
@@ -218,7 +231,7 @@ impl ArmLaw {
         }
     }
 
-    #[inline]
+    #[inline(always)]
     fn tick_believing(
         &mut self,
         believed: &Believed<3>,
@@ -333,7 +346,7 @@ impl ArmLaw {
 
     /// What the hand does at joint angles `q` (rad), where the handle is at `pose`: in the base frame. What the sensor's
     /// conditioning is to remember of it is written into `made`.
-    #[inline]
+    #[inline(always)]
     fn sensed(
         &self,
         q: &Vector3<Real>,

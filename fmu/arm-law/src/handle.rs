@@ -74,12 +74,6 @@ impl HandleTick {
             dp_n,
             ..
         } = self;
-        real::are_finite(
-            f_a.iter()
-                .chain(tau)
-                .chain(tau_demand)
-                .chain(p_n)
-                .chain(dp_n),
-        )
+        real::are_finite([f_a, tau, tau_demand, p_n, dp_n])
     }
 }

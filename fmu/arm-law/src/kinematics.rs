@@ -112,7 +112,7 @@ impl Kinematics {
     }
 
     /// The handle at joint angles given by sine and cosine.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn turned(&self, sin_cos: &SinCos) -> Pose {
         let [_, _, (s_3, c_3)] = *sin_cos;
         let InPlane { x, z, r_x, r_z } = self.in_plane(sin_cos);
@@ -120,9 +120,9 @@ impl Kinematics {
         Pose {
             p: self.p(sin_cos),
             J: self.J(sin_cos),
-            sigma_min: real::min(
-                real::abs(self.A1 + x),
+            sigma_min: real::at_most(
                 real::abs(det) / largest_singular_value([[-z, -r_z], [x, r_x]]),
+                real::abs(self.A1 + x),
             ),
             sin_cos: *sin_cos,
         }

@@ -39,7 +39,9 @@ impl Step {
     /// the difference of two times.
     pub fn same_instant(&self, period: f64) -> f64 {
         let resolution = f64::EPSILON * (self.t.abs() + self.h);
-        (SAME_INSTANT * period).max(resolution).min(0.5 * self.h)
+        let (part, half) = (SAME_INSTANT * period, 0.5 * self.h);
+        let longer = if part > resolution { part } else { resolution }; // no NaN among them
+        if longer < half { longer } else { half }
     }
 
     /// Refuses a step of more than 1e8 periods, where `period` (s) is what the model calls `name`: a sample period, a

@@ -46,6 +46,6 @@ impl<const N: usize> Command<N> {
     /// Whether drives can be told so.
     pub fn is_finite(&self) -> bool {
         let Self { q_d, dq_d, tick } = self;
-        real::are_finite(q_d.iter().chain(dq_d).chain(&tick.q_n).chain(&tick.dq_n))
+        real::are_finite([q_d, dq_d, &tick.q_n, &tick.dq_n])
     }
 }

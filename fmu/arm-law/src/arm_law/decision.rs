@@ -12,7 +12,7 @@ use nalgebra::Vector3;
 
 impl ArmLaw {
     /// One tick in which `engage` and `hold` decide. Without joint angles the law rests, and engages anew with them.
-    #[inline]
+    #[inline(always)]
     pub(super) fn unsupervised(
         &mut self,
         inputs: &ArmInputs,

@@ -89,7 +89,7 @@ impl Shown<'_> {
 impl ArmLaw {
     /// What is known after a tick that the law has shown: the handle at `pose`, what the hand does, and what supervision says;
     /// without it, that the law does what `engage` and `hold` say.
-    #[inline]
+    #[inline(always)]
     pub(super) fn show(
         &self,
         pose: &Pose,

@@ -31,11 +31,11 @@ impl HandleAxes {
     fn propose_within(
         &self,
         near: &Near,
-        sensed: &AxesSensed<3>,
+        sensed: AxesSensed<3>,
         f_h: &Vector3<Real>,
-        request: &Request<3>,
+        request: Request<3>,
     ) -> AxesProposal<3> {
-        let mut proposal = self.axes.propose(sensed, f_h, request);
+        let mut proposal = self.axes.propose(&sensed, f_h, &request);
         let edges = Self::edges(near, &proposal);
         self.axes.keep_within(&edges, &mut proposal);
         proposal
@@ -46,12 +46,12 @@ impl HandleAxes {
     fn driven_within(
         &self,
         near: &Near,
-        proposal: &AxesProposal<3>,
-        f: &Vector3<Real>,
+        proposal: AxesProposal<3>,
+        f: Vector3<Real>,
     ) -> AxesDriven<3> {
-        let edges = || Self::edges(near, proposal);
-        let driven = self.axes.driven(proposal, f);
-        self.axes.driven_within(edges, proposal, driven, f)
+        let edges = || Self::edges(near, &proposal);
+        let driven = self.axes.driven(&proposal, &f);
+        self.axes.driven_within(edges, &proposal, driven, &f)
     }
 }
 
@@ -76,7 +76,7 @@ impl Coordinates<3> for HandleAxes {
         self.axes.sense(p, after)
     }
 
-    #[inline]
+    #[inline(always)]
     fn stored(&self, sensed: &AxesSensed<3>) -> Real {
         self.axes.stored(sensed)
     }
@@ -93,7 +93,7 @@ impl Coordinates<3> for HandleAxes {
         self.axes.reduce(sensed, keep);
     }
 
-    #[inline]
+    #[inline(always)]
     fn propose(
         &self,
         sensed: &AxesSensed<3>,
@@ -102,7 +102,7 @@ impl Coordinates<3> for HandleAxes {
     ) -> AxesProposal<3> {
         match &self.near {
             None => self.axes.propose(sensed, f_h, request),
-            Some(near) => self.propose_within(near, sensed, f_h, request),
+            Some(near) => self.propose_within(near, *sensed, f_h, *request),
         }
     }
 
@@ -111,15 +111,15 @@ impl Coordinates<3> for HandleAxes {
         self.axes.f(proposal)
     }
 
-    #[inline]
+    #[inline(always)]
     fn driven(&self, proposal: &AxesProposal<3>, f: &Vector3<Real>) -> AxesDriven<3> {
         match &self.near {
             None => self.axes.driven(proposal, f),
-            Some(near) => self.driven_within(near, proposal, f),
+            Some(near) => self.driven_within(near, *proposal, *f),
         }
     }
 
-    #[inline]
+    #[inline(always)]
     fn taken(&self, proposal: &AxesProposal<3>, driven: &AxesDriven<3>, f: &Vector3<Real>) -> Real {
         self.axes.taken(proposal, driven, f)
     }

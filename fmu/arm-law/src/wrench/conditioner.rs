@@ -194,7 +194,7 @@ impl Conditioner {
         }
         let hand = (*reading.wrench - *self.tare.bias()).about(&self.sensor.handle.into());
         // Where the reading is not finite, this is not, either.
-        real::are_finite(hand.force.iter().chain(&hand.torque)).then_some(Conditioned {
+        real::are_finite([&hand.force, &hand.torque]).then_some(Conditioned {
             hand,
             fault: None,
             tare: self.tare.state(),
@@ -236,7 +236,7 @@ impl Conditioner {
             }
             hand.force = deadband(&hand.force, self.sensor.deadband);
             // A tool of 1e308 kg, say: what is left of the reading is no number, and no force is known.
-            if !real::are_finite(hand.force.iter().chain(&hand.torque)) {
+            if !real::are_finite([&hand.force, &hand.torque]) {
                 (hand, fault) = (Wrench::ZERO, Some(Fault::NotFinite));
                 made.passed = self.filter.at_rest();
             }

@@ -165,7 +165,7 @@ impl Validity {
     /// invalid.
     #[inline]
     pub(super) fn sampled(&self, raw: &Wrench, flag: bool, seen: &mut Seen) {
-        let finite = real::are_finite(raw.force.iter().chain(&raw.torque));
+        let finite = real::are_finite([&raw.force, &raw.torque]);
         if self.checks.look_back() {
             seen.past = Some(self.past.with(raw, finite));
         }

@@ -3,13 +3,15 @@
 use super::{Place, Point, Stored};
 use core::marker::PhantomData;
 
-/// The numbers of a struct `M` that are to be finite: those that lie side by side in eights and fours, the others one by one.
+/// The numbers of a struct `M` that are to be finite: those that lie side by side in eights, fours and pairs, the others one by
+/// one.
 ///
 /// All outputs are looked at after every step, so it is done without a branch for each, and in integers, which raise no
 /// exception: the exponent of what is not finite consists of ones, and no other number's leading bits are as large.
 pub struct Finite<M> {
     eights: Vec<Side<M, [Two; 4]>>,
     fours: Vec<Side<M, [Two; 2]>>,
+    pairs: Vec<Side<M, [Two; 1]>>,
     others: Vec<Point<M, f64>>,
 }
 
@@ -56,16 +58,30 @@ impl<M> Finite<M> {
         let mut found = Self {
             eights: Vec::new(),
             fours: Vec::new(),
+            pairs: Vec::new(),
             others: Vec::new(),
         };
         for run in &runs {
-            match run.len {
-                8.. if run.lies_side_by_side() => found.eights.extend(run.sides()),
-                4.. if run.lies_side_by_side() => found.fours.extend(run.sides()),
-                _ => found.others.extend((0..run.len()).map(|i| run.point(i))),
-            }
+            found.split(run);
         }
         found
+    }
+
+    /// Takes in the values of `run`: as many at once as go, where the last ones may overlap those before.
+    fn split(&mut self, run: &Place<M, f64>) {
+        let n = if run.lies_side_by_side() { run.len } else { 1 };
+        let mut i = 0;
+        while i < run.len {
+            i += match run.len - i {
+                5.. if n >= 8 => self.eights.add(run, i),
+                3.. if n >= 4 => self.fours.add(run, i),
+                _ if n >= 2 => self.pairs.add(run, i),
+                _ => {
+                    self.others.push(run.point(i as usize));
+                    1
+                }
+            };
+        }
     }
 
     /// Whether all are.
@@ -82,10 +98,31 @@ impl<M> Finite<M> {
                 look(&mut most, two);
             }
         }
+        for pair in &self.pairs {
+            let [two] = pair.get(model);
+            look(&mut most, two);
+        }
         // A compiler that knows which quarters are read finds each by itself.
         let most = core::hint::black_box(most);
         let others = self.others.iter().all(|other| other.get(model).is_finite());
         others && LEADING.iter().all(|i| most[*i] < NOT_FINITE)
+    }
+}
+
+/// Sides that are looked at alike.
+trait Sides<M> {
+    /// Adds the values of `run` from `i` on, as many as a side has, or the last of them; how many.
+    fn add(&mut self, run: &Place<M, f64>, i: u32) -> u32;
+}
+
+impl<M, T> Sides<M> for Vec<Side<M, T>> {
+    fn add(&mut self, run: &Place<M, f64>, i: u32) -> u32 {
+        let n = size_of::<T>() as u32 / run.stride;
+        self.push(Side {
+            offset: run.offset + run.stride * i.min(run.len - n),
+            holder: PhantomData,
+        });
+        n
     }
 }
 
@@ -102,17 +139,6 @@ impl<M, T> Side<M, T> {
 impl<M> Place<M, f64> {
     fn lies_side_by_side(&self) -> bool {
         self.stride as usize == size_of::<f64>() && self.stored == Stored::AsIs
-    }
-
-    /// All of its values, as many at once as a `T` has, which are not more: the last ones overlap those before where they
-    /// must.
-    fn sides<T>(&self) -> impl Iterator<Item = Side<M, T>> {
-        let (begin, len) = (self.offset, self.len * self.stride);
-        let at_once = size_of::<T>() as u32;
-        (0..len).step_by(size_of::<T>()).map(move |i| Side {
-            offset: begin + i.min(len - at_once),
-            holder: PhantomData,
-        })
     }
 
     /// This place and `next` as one, if `next` begins where this one ends and both are stored alike.
