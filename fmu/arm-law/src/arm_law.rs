@@ -39,6 +39,8 @@ pub struct ArmLaw {
     frame: FixedFrame,
     /// where the hand's force is read: ft.source
     source: i32,
+    /// whether next to nothing is made of what is read
+    plain: bool,
     bounds: [Bounds; 3],
     /// where angles and positions are counted from, if not from zero
     origin: Option<Origin>,
@@ -69,6 +71,7 @@ impl ArmLaw {
             stiff_hand: Detectors::new(parameters.stiff_hand, T)?,
             frame: parameters.ft.sensed_in().fixed(),
             source: parameters.ft.source,
+            plain: parameters.ft.is_plain(),
             conditioner: Conditioner::new(parameters.ft, T)?,
             encoders: parameters.encoder.checks(&checked.reach, T),
             // Each is made in a function of its own: a stack that holds one of them at a time is a third as deep.
@@ -359,7 +362,7 @@ impl ArmLaw {
             valid: inputs.ft_valid != 0,
             tare: inputs.ft_tare != 0,
         };
-        if self.frame == FixedFrame::Base {
+        if self.plain {
             if let Some(hand) = self.conditioner.plainly(&reading) {
                 return hand;
             }

@@ -78,7 +78,8 @@ proptest! {
 
     #[test]
     fn R_is_link_3s_frame((kinematics, q) in poses()) {
-        let Pose { p, R, .. } = at(kinematics, q);
+        let pose = at(kinematics, q);
+        let (p, R) = (pose.p, pose.R());
         prop_assert!((R.transpose() * R - Matrix3::identity()).amax() < 1e-15);
         prop_assert!((R.determinant() - 1.0).abs() < 1e-15);
         // From the elbow, which no elbow angle moves, to the handle.

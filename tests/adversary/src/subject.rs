@@ -197,7 +197,7 @@ impl Subject<3> for Arm {
         let mut done = HandleTick::at_rest(&pose.p, false);
         match order {
             Order::Rest => self.law.rest(&pose, q, &mut done),
-            Order::Run(request) => self.law.step(&pose, q, f_h, request, &mut done),
+            Order::Run(request) => self.law.step(&pose, q, f_h, request, |tick| done = *tick),
         }
         .expect(FINITE);
         let ledger = self.law.ledger();

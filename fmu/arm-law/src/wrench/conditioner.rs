@@ -103,8 +103,6 @@ impl Default for Conditioned {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Conditioner {
     sensor: Sensor,
-    /// whether nothing but the lever arm and a bias is made of a reading, as at the start values
-    plain: bool,
     validity: Validity,
     tare: Tare,
     filter: LowPass,
@@ -139,6 +137,15 @@ impl Sensor {
         in_range(self)
     }
 
+    /// Whether nothing but the lever arm and a bias is made of a reading, which is one in the base frame: at the start values.
+    pub(crate) fn is_plain(&self) -> bool {
+        self.sensed_in() == Frame::Base
+            && self.tool.mass == 0.0
+            && self.deadband == 0.0
+            && self.cutoff == 0.0
+            && !self.checks.any()
+    }
+
     /// Whose axes the reading is along. The values have been checked.
     pub fn sensed_in(&self) -> Frame {
         match (self.source, self.frame) {
@@ -160,10 +167,6 @@ impl Conditioner {
         sensor.check()?;
         Ok(Self {
             sensor,
-            plain: sensor.tool.mass == 0.0
-                && sensor.deadband == 0.0
-                && sensor.cutoff == 0.0
-                && !sensor.checks.any(),
             validity: Validity::new(sensor.checks, T),
             tare: Tare::new(sensor.tare, T),
             filter: LowPass::new(sensor.cutoff, T),
@@ -183,13 +186,12 @@ impl Conditioner {
         hand
     }
 
-    /// What is made of a `reading` where that is next to nothing, and nothing of it is to be remembered: no part of the way is
-    /// used but the lever arm and the bias, the sensor has no fault and no tare runs. All else goes by
-    /// [`sampled`](Self::sampled), with the same result.
+    /// What is made of a `reading` of a sensor that [is plain](Sensor::is_plain), where nothing is to be remembered: it has no
+    /// fault, and no tare runs. All else goes by [`sampled`](Self::sampled), with the same result.
     #[inline]
     pub(crate) fn plainly(&self, reading: &Reading<'_>) -> Option<Conditioned> {
         let is_quiet = self.validity.is_sound() && self.tare.is_quiet();
-        if !(self.plain && is_quiet && reading.valid) || reading.tare {
+        if !(is_quiet && reading.valid) || reading.tare {
             return None;
         }
         let hand = (*reading.wrench - *self.tare.bias()).about(&self.sensor.handle.into());

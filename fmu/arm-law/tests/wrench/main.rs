@@ -6,6 +6,7 @@ mod deadband;
 mod filter;
 mod refusals;
 mod residual;
+mod short_way;
 mod synthetic;
 mod tare;
 mod transport;
