@@ -1,9 +1,12 @@
 //! N axes, without a ledger: what several scalars do at one tick.
 
 mod columns;
+mod request;
+mod seldom;
 mod within;
 
 pub use columns::{AxesDriven, AxesProposal, AxesSensed};
+pub use request::Request;
 
 use crate::axis::Axis;
 use crate::bounds::{Bounds, Interval};
@@ -14,7 +17,7 @@ use crate::real::{floored, sat};
 use crate::servo::{Drivable, Drive};
 use crate::settling::Keep;
 use crate::tick::{Coordinates, Tick};
-use crate::{Gains, ParameterError, Real, Settings, real, retune, timing};
+use crate::{Gains, ParameterError, Real, Settings};
 use nalgebra::SVector;
 
 /// N axes of the law between two ticks. They start out of the loop; the first tick engages them with q_n = q and v_n = 0.
@@ -43,51 +46,6 @@ struct Last<const N: usize> {
     /// where the nominals go from there, m and m/s
     q_n: SVector<Real, N>,
     v_n: SVector<Real, N>,
-}
-
-/// What is asked of the law at a tick, beside its inputs.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Request<const N: usize> {
-    /// Part of the force that the robot is to get, in [0, 1]: for fading in and out. A NaN counts as 0.
-    pub authority: Real,
-    /// Whether the nominal stays where it is: the coupling then supports any load without drift.
-    pub hold: bool,
-    /// Damping on top of D_n, N·s/m, ≥ 0.
-    pub damping: SVector<Real, N>,
-    /// Speed that the nominal must not exceed, beside its bounds, m/s, ≥ 0; infinite for no limit.
-    pub speed: SVector<Real, N>,
-    /// Sample periods that have passed since the position before this one was read; 1: the tick is in time.
-    pub after: Real,
-}
-
-impl<const N: usize> Default for Request<N> {
-    /// The law alone.
-    fn default() -> Self {
-        Self {
-            authority: 1.0,
-            hold: false,
-            damping: SVector::zeros(),
-            speed: SVector::repeat(Real::INFINITY),
-            after: 1.0,
-        }
-    }
-}
-
-impl<const N: usize> Request<N> {
-    /// The authority within [0, 1].
-    pub fn authority(&self) -> Real {
-        if self.authority > 0.0 {
-            real::min(self.authority, 1.0)
-        } else {
-            0.0
-        }
-    }
-
-    /// Whether the nominals may move as they like, but for their bounds.
-    #[inline]
-    fn leaves_free(&self) -> bool {
-        !self.hold && self.speed.iter().all(|speed| *speed == Real::INFINITY)
-    }
 }
 
 impl<const N: usize> Axes<N> {
@@ -145,41 +103,6 @@ impl<const N: usize> Axes<N> {
         Ok(())
     }
 
-    /// What is sensed where a tick does not come in time, gains are on their way, or velocities pass a filter; the springs
-    /// have not slipped yet.
-    #[cold]
-    #[inline(never)]
-    fn sense_otherwise(&self, q: &SVector<Real, N>, after: Real) -> AxesSensed<N> {
-        let Self {
-            settings,
-            sampling,
-            axes,
-            last,
-            ..
-        } = self;
-        let mut sensed = AxesSensed {
-            q: *q,
-            dq: SVector::from_fn(|i, _| sampling.dq(last.q[i], last.dq[i], q[i], after)),
-            e: SVector::zeros(),
-            v_n: last.v_n,
-        };
-        for i in 0..N {
-            let q_n = if after == 1.0 {
-                last.q_n[i]
-            } else {
-                let way = timing::more(after) * settings.T * last.v_n[i];
-                Bounds::kept(axes[i].bounds.as_ref(), last.q_n[i], way)
-            };
-            sensed.e[i] = q_n - q[i];
-            if let Some(gains) = axes[i].changed_from() {
-                let (e, v_n) = (sensed.e[i], sensed.v_n[i]);
-                (sensed.e[i], sensed.v_n[i]) =
-                    retune::taken_over(settings.law, gains, axes[i].gains(), e, v_n);
-            }
-        }
-        sensed
-    }
-
     /// Energy of the spring of axis `i`, from 0, at the extension `e` (m), J.
     #[inline]
     fn spring(&self, i: usize, e: Real) -> Real {
@@ -195,50 +118,6 @@ impl<const N: usize> Axes<N> {
     #[inline]
     fn is_tuning(&self) -> bool {
         self.axes.iter().any(|axis| axis.changed_from().is_some())
-    }
-
-    /// Velocities that the nominals may have that are `sensed`. This, as all that is seldom called, gets copies: what is not
-    /// pointed at stays in registers.
-    #[cold]
-    #[inline(never)]
-    fn intervals(&self, sensed: AxesSensed<N>, request: Request<N>) -> [Interval; N] {
-        core::array::from_fn(|i| {
-            let bounds = self.axes[i].bounds.as_ref();
-            Interval::within(
-                bounds,
-                sensed.q[i] + sensed.e[i],
-                self.settings.T,
-                request.hold,
-            )
-            .no_faster_than(request.speed[i])
-        })
-    }
-
-    /// How the nominals move that feel the forces `f` (N), which the robot gets.
-    #[cold]
-    #[inline(never)]
-    fn driven_by(&self, proposal: AxesProposal<N>, f: SVector<Real, N>) -> AxesDriven<N> {
-        let mut driven = proposal.wish;
-        for i in 0..N {
-            if f[i] != proposal.f_demand[i] {
-                let (rule, y_s) = (&self.axes[i].rule, self.axes[i].y(f[i]));
-                let free = rule.driven(&proposal.sample(i), y_s);
-                driven.v_m[i] = proposal.interval[i].keep(free);
-                driven.held[i] = driven.v_m[i] != free;
-            }
-        }
-        driven
-    }
-
-    /// Where the nominals are set back to while they feel the forces `f` (N), which are not all what was asked for.
-    #[cold]
-    #[inline(never)]
-    fn at_the_bounds(&self, proposal: AxesProposal<N>, f: SVector<Real, N>) -> [Option<Real>; N] {
-        core::array::from_fn(|i| {
-            let axis = &self.axes[i];
-            let limited = f[i] != proposal.f_demand[i];
-            limited.then(|| axis.rule.at_the_bound(&proposal.sample(i), axis.y(f[i])))
-        })
     }
 
     /// The nominals move on as `driven`; where one is set back to `v_b` (m/s), it is so if that has no more energy.
