@@ -157,6 +157,8 @@ impl<const N: usize> Axes<N> {
     }
 }
 
+/// What each tick calls once is inlined whatever its size: where a rarer way calls it, too, a compiler would call it, and what
+/// goes in and out would go through memory.
 impl<const N: usize> Coordinates<N> for Axes<N> {
     type Place = SVector<Real, N>;
     type Request = Request<N>;

@@ -2,6 +2,9 @@
 //!
 //! It knows no FMI: the FMU ArmController and the C library are shells around it. Who decides whether it runs stands
 //! in `arm_law/decision.rs`, what a tick shows in `arm_law/show.rs`, from where positions are counted in `arm_law/counting.rs`.
+//!
+//! The way of a tick at which nothing is wrong is one long function: what it calls is inlined whatever its size, what is rare is
+//! not.
 
 mod counting;
 mod decision;
