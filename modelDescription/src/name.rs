@@ -25,6 +25,14 @@ pub fn is_identifier(name: &str) -> bool {
     name.starts_with(nondigit) && name.chars().all(|c| nondigit(c) || c.is_ascii_digit())
 }
 
+/// Whether XML can carry `text` and gives it back as it was: no control characters, line ends included, and none of the
+/// two letters that are none.
+pub fn is_line(text: &str) -> bool {
+    !text
+        .chars()
+        .any(|c| c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}'))
+}
+
 fn are_indices(list: &str) -> bool {
     list.split(',')
         .all(|index| !index.is_empty() && index.chars().all(|c| c.is_ascii_digit()))
@@ -47,6 +55,18 @@ mod tests {
             "_x",
         ] {
             assert!(is_structured(name), "{name}");
+        }
+    }
+
+    #[test]
+    fn what_xml_cannot_carry_is_no_line() {
+        for text in ["", "größer als 1 µm", "\u{10ffff}"] {
+            assert!(is_line(text), "{text:?}");
+        }
+        for text in [
+            "a\0", "\u{7}", "a\nb", "\t", "\u{7f}", "\u{fffe}", "\u{ffff}",
+        ] {
+            assert!(!is_line(text), "{text:?}");
         }
     }
 
