@@ -1,14 +1,17 @@
 //! What a declaration got wrong, in words that name the row.
 
 use crate::entry::Kind;
+use crate::name::LONGEST_MODEL_NAME;
 use fmu_declaration::description::SCALARS_PER_ROW;
 use fmu_declaration::{Brief, Causality, Experiment, Stepping, Variability, provenance};
 
 /// What a declaration got wrong.
 #[derive(Clone, Debug, thiserror::Error)]
 pub enum Error {
-    /// The model's name is no C identifier.
-    #[error("model name {0}: expected a C identifier")]
+    /// The model's name is no C identifier, or no file can have it.
+    #[error(
+        "model name {0:?}: expected a C identifier of at most {LONGEST_MODEL_NAME} letters, no keyword of C and no device of Windows"
+    )]
     ModelName(&'static str),
     /// The default experiment is not finite, ends before it starts, or has a step or tolerance that is not positive.
     #[error(
@@ -78,7 +81,7 @@ pub enum Error {
         from: &'static str,
     },
     /// Not a name of the structured naming convention.
-    #[error("{row}: expected a name like energy.H or tau_a[1]")]
+    #[error("{row:?}: expected a name like energy.H or tau_a[1]")]
     Name {
         /// Scalar.
         row: String,

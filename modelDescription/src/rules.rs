@@ -3,7 +3,7 @@
 use crate::arrays::{self, CLOCK, TIME};
 use crate::entry::{Entry, Kind};
 use crate::error::Error;
-use crate::name::{is_identifier, is_line, is_structured};
+use crate::name::{is_line, is_model_name, is_structured};
 use crate::texts::{check_texts, line};
 use fmu_declaration::{
     Access, Brief, Causality, Description, Enumeration, Experiment, Scalar, Stepping, Unit,
@@ -20,7 +20,7 @@ pub(crate) fn check_frame<D>(description: &Description<D>) -> Result<(), Error> 
         step,
     } = description.experiment;
     let positive = |value: f64| value.is_finite() && value > 0.0;
-    if !is_identifier(description.name) {
+    if !is_model_name(description.name) {
         return Err(Error::ModelName(description.name));
     }
     if !(start.is_finite()
