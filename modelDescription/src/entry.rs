@@ -1,7 +1,8 @@
 //! One scalar variable of an interface.
 
-use fmu_declaration::{Causality, Declared, Enumeration, IntegerType, Unit, Variability};
+use fmu_declaration::{Brief, Causality, Declared, Enumeration, IntegerType, Unit, Variability};
 use serde::{Deserialize, Serialize};
+use std::fmt;
 
 /// One scalar variable.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -93,6 +94,51 @@ impl Kind {
             | Self::String { .. }
             | Self::Enumeration { .. } => true,
         }
+    }
+}
+
+/// The start value, and the bounds.
+impl fmt::Display for Kind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Real {
+                unit,
+                start,
+                min,
+                max,
+                ..
+            } => {
+                let (min, max) = (min.map(Brief), max.map(Brief));
+                write!(f, "{} {}{}", Brief(*start), unit.name, Bounds(min, max))
+            }
+            Self::Integer {
+                start, min, max, ..
+            } => write!(f, "{start}{}", Bounds(*min, *max)),
+            Self::Boolean { start } => write!(f, "{start}"),
+            Self::String { start } => write!(f, "{start:?}"),
+            Self::Binary {
+                max_size, start, ..
+            } => write!(f, "{} bytes{}", start.len(), Bounds(None, *max_size)),
+            Self::Enumeration { of, start, .. } => {
+                write!(f, "{start}, which is no item of {}", of.name)
+            }
+        }
+    }
+}
+
+/// Smallest and largest value, where there are any.
+struct Bounds<T>(Option<T>, Option<T>);
+
+impl<T: fmt::Display> fmt::Display for Bounds<T> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self(min, max) = self;
+        if let Some(min) = min {
+            write!(f, ", at least {min}")?;
+        }
+        if let Some(max) = max {
+            write!(f, ", at most {max}")?;
+        }
+        Ok(())
     }
 }
 

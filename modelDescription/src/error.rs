@@ -1,14 +1,17 @@
 //! What a declaration got wrong, in words that name the row.
 
 use crate::entry::Kind;
+use crate::name::LONGEST_MODEL_NAME;
 use fmu_declaration::description::SCALARS_PER_ROW;
-use fmu_declaration::{Causality, Experiment, Stepping, Variability, provenance};
+use fmu_declaration::{Brief, Causality, Experiment, Stepping, Variability, provenance};
 
 /// What a declaration got wrong.
 #[derive(Clone, Debug, thiserror::Error)]
 pub enum Error {
-    /// The model's name is no C identifier.
-    #[error("model name {0}: expected a C identifier")]
+    /// The model's name is no C identifier, or no file can have it.
+    #[error(
+        "model name {0:?}: expected a C identifier of at most {LONGEST_MODEL_NAME} letters, no keyword of C and no device of Windows"
+    )]
     ModelName(&'static str),
     /// The default experiment is not finite, ends before it starts, or has a step or tolerance that is not positive.
     #[error(
@@ -78,7 +81,7 @@ pub enum Error {
         from: &'static str,
     },
     /// Not a name of the structured naming convention.
-    #[error("{row}: expected a name like energy.H or tau_a[1]")]
+    #[error("{row:?}: expected a name like energy.H or tau_a[1]")]
     Name {
         /// Scalar.
         row: String,
@@ -99,6 +102,30 @@ pub enum Error {
         /// Name of the unit.
         unit: &'static str,
     },
+    /// A display unit that no value can be shown in.
+    #[error(
+        "{row}: display unit {display}: expected a finite factor other than 0 and a finite offset, got {factor:?} and {offset:?}"
+    )]
+    Display {
+        /// Scalar.
+        row: String,
+        /// Name of the display unit.
+        display: &'static str,
+        /// Its factor.
+        factor: f64,
+        /// Its offset.
+        offset: f64,
+    },
+    /// A text that XML cannot carry or does not give back, or a name that is empty.
+    #[error("{row}: {what} {text:?}: expected one line without control characters{or_empty}", or_empty = if text.is_empty() { ", not empty" } else { "" })]
+    Text {
+        /// Scalar, or the model.
+        row: String,
+        /// Whose text it is.
+        what: &'static str,
+        /// The text.
+        text: String,
+    },
     /// Two enumeration types of one name.
     #[error("{row}: expected one definition of the type {name}, got two")]
     Type {
@@ -113,8 +140,20 @@ pub enum Error {
         /// Scalar.
         row: String,
     },
+    /// Bounds that no value lies within, or that are not finite.
+    #[error(
+        "{row}: expected finite bounds, of which the first is not above the second, got {low} to {high}"
+    )]
+    Bounds {
+        /// Scalar.
+        row: String,
+        /// The smallest value.
+        low: Brief<f64>,
+        /// The largest value.
+        high: Brief<f64>,
+    },
     /// A start value that is not finite, outside of its bounds, or no item.
-    #[error("{row}: expected a start value within its bounds, got {kind:?}")]
+    #[error("{row}: expected a start value within its bounds, got {kind}")]
     Start {
         /// Scalar.
         row: String,

@@ -99,6 +99,7 @@ pub mod schema3;
 pub mod standard;
 #[cfg(feature = "write")]
 pub mod terminals;
+mod texts;
 #[cfg(feature = "write")]
 mod variables;
 #[cfg(feature = "write")]

@@ -23,7 +23,7 @@ pub fn files(product: &Product<'_>, linked: &[Component]) -> Vec<(String, Vec<u8
 
 /// Name of a licence text in the archive: what has no extension is given one, so that it opens everywhere; and what would
 /// take the entry point's name, another one.
-pub(crate) fn file_name(name: &str) -> String {
+pub fn file_name(name: &str) -> String {
     let named = if name.contains('.') {
         name.to_owned()
     } else {

@@ -3,10 +3,11 @@
 use crate::arrays::{self, CLOCK, TIME};
 use crate::entry::{Entry, Kind};
 use crate::error::Error;
-use crate::name::{is_identifier, is_structured};
+use crate::name::{is_line, is_model_name, is_structured};
+use crate::texts::{check_texts, line};
 use fmu_declaration::{
-    Access, Causality, Description, Enumeration, Experiment, Scalar, Stepping, Unit, Variability,
-    Variable, description::SCALARS_PER_ROW, provenance, variable::IN_ORDER,
+    Access, Brief, Causality, Description, Enumeration, Experiment, Scalar, Stepping, Unit,
+    Variability, Variable, description::SCALARS_PER_ROW, provenance, variable::IN_ORDER,
 };
 use std::collections::BTreeMap;
 
@@ -19,7 +20,7 @@ pub(crate) fn check_frame<D>(description: &Description<D>) -> Result<(), Error> 
         step,
     } = description.experiment;
     let positive = |value: f64| value.is_finite() && value > 0.0;
-    if !is_identifier(description.name) {
+    if !is_model_name(description.name) {
         return Err(Error::ModelName(description.name));
     }
     if !(start.is_finite()
@@ -30,6 +31,7 @@ pub(crate) fn check_frame<D>(description: &Description<D>) -> Result<(), Error> 
     {
         return Err(Error::Experiment(description.experiment));
     }
+    line(description.name, "description", description.about)?;
     if description.variables.len() > provenance::ROW as usize {
         return Err(Error::Rows(description.variables.len()));
     }
@@ -151,6 +153,7 @@ pub(crate) fn check_scalars(scalars: &[Entry]) -> Result<(), Error> {
         if let Some(other) = names.insert(entry.name.to_lowercase(), row()) {
             return Err(Error::SameName { row: row(), other });
         }
+        check_texts(entry)?;
         let fits = match &entry.kind {
             Kind::Real {
                 unit,
@@ -168,18 +171,18 @@ pub(crate) fn check_scalars(scalars: &[Entry]) -> Result<(), Error> {
                         unit: unit.name,
                     });
                 }
-                let bounds = [min, max]
-                    .into_iter()
-                    .flatten()
-                    .all(|bound| bound.is_finite());
-                bounds
-                    && start.is_finite()
+                check_bounds(entry, *min, *max)?;
+                start.is_finite()
                     && min.is_none_or(|min| min <= *start)
                     && max.is_none_or(|max| *start <= max)
             }
             Kind::Integer {
                 start, min, max, ..
-            } => min.is_none_or(|min| min <= *start) && max.is_none_or(|max| *start <= max),
+            } => {
+                let number = |bound: &Option<i128>| bound.map(|bound| bound as f64);
+                check_bounds(entry, number(min), number(max))?;
+                min.is_none_or(|min| min <= *start) && max.is_none_or(|max| *start <= max)
+            }
             Kind::Enumeration { of, start, .. } => {
                 if types.insert(of.name, of).is_some_and(|other| other != *of) {
                     return Err(Error::Type {
@@ -189,7 +192,7 @@ pub(crate) fn check_scalars(scalars: &[Entry]) -> Result<(), Error> {
                 }
                 of.items.iter().any(|item| item.value == *start)
             }
-            Kind::String { start } => !start.chars().any(|c| c.is_control()),
+            Kind::String { start } => is_line(start),
             Kind::Binary {
                 start, max_size, ..
             } => max_size.is_none_or(|most| start.len() <= most),
@@ -211,6 +214,23 @@ pub(crate) fn check_scalars(scalars: &[Entry]) -> Result<(), Error> {
         }),
         None => Ok(()),
     }
+}
+
+/// Bounds stand in the description of what the model computes, too.
+fn check_bounds(entry: &Entry, min: Option<f64>, max: Option<f64>) -> Result<(), Error> {
+    let (low, high) = (
+        min.unwrap_or(f64::NEG_INFINITY),
+        max.unwrap_or(f64::INFINITY),
+    );
+    let finite = min.is_none_or(f64::is_finite) && max.is_none_or(f64::is_finite);
+    if finite && low <= high {
+        return Ok(());
+    }
+    Err(Error::Bounds {
+        row: entry.name.clone(),
+        low: Brief(low),
+        high: Brief(high),
+    })
 }
 
 /// The names of FMI 3.0, where a vector is one variable, and there is a variable for time and one for the clock.

@@ -160,8 +160,12 @@ fn start_values_lie_within_their_bounds() {
         &["delay"],
     );
     refused(
-        &with_row(GAIN, |row| within(row, f64::NAN, 40.0)),
-        &["gain"],
+        &with_row(GAIN, |row| within(row, 0.0, 29.0)),
+        &[
+            "gain: expected a start value",
+            "got 30 ",
+            ", at least 0, at most 29",
+        ],
     );
     refused(
         &with_row(ENERGY, |row| row.parameter(Variability::Fixed)),
@@ -174,6 +178,93 @@ fn start_values_lie_within_their_bounds() {
         &with_row(MODE, |_| Subject::in_mode(&OTHER)),
         &["mode", "4"],
     );
+}
+
+#[test]
+fn bounds_are_finite_and_ascend_at_what_the_model_computes_too() {
+    for (low, high, shown) in [
+        (f64::NAN, 40.0, "NaN to 40"),
+        (-40.0, f64::NAN, "-40 to NaN"),
+        (40.0, 1.0, "40 to 1"),
+        (f64::INFINITY, f64::INFINITY, "inf to inf"),
+    ] {
+        for (position, name) in [(GAIN, "gain"), (ENERGY, "energy.total")] {
+            refused(
+                &with_row(position, |row| within(row, low, high)),
+                &[name, "expected finite bounds", shown],
+            );
+        }
+    }
+}
+
+#[test]
+fn texts_that_xml_cannot_carry_and_empty_names_are_refused_by_row() {
+    let about = |position, about| with_row(position, |row| Variable { about, ..row });
+    for text in ["a\0b", "a\nb", "\u{1b}[31m", "\u{ffff}"] {
+        refused(
+            &about(GAIN, text),
+            &[
+                "gain: description",
+                &format!("{text:?}"),
+                "expected one line",
+            ],
+        );
+        let model = Description {
+            about: text,
+            ..with_row(U, |row| row)
+        };
+        refused(&model, &[model.name, "description", "expected one line"]);
+    }
+    for (name, expected) in [("", "not empty"), (" ", "not empty"), ("N\t", "one line")] {
+        let unit = Unit {
+            name,
+            ..unit::METRE
+        };
+        refused(
+            &with_row(INNER, |_| Subject::in_unit(unit)),
+            &["inner: unit ", expected],
+        );
+        let shown = unit::METRE.shown_in(name, 1e3, 0.0);
+        refused(
+            &with_row(INNER, |_| Subject::in_unit(shown)),
+            &["inner: display unit ", expected],
+        );
+    }
+    choices! { NAMELESS "" "":
+        4 "only" "";
+    }
+    choices! { WITHOUT_ITEM_NAME "Choice" "":
+        4 "" "";
+    }
+    choices! { BELL "Choice" "":
+        4 "only" "\u{7}";
+    }
+    for (of, words) in [
+        (&NAMELESS, "enumeration"),
+        (&WITHOUT_ITEM_NAME, "item"),
+        (&BELL, "description of the item"),
+    ] {
+        refused(
+            &with_row(MODE, |_| Subject::in_mode(of)),
+            &["mode: ", words, "expected one line"],
+        );
+    }
+}
+
+#[test]
+fn a_display_unit_has_a_factor_that_shows_values() {
+    for (factor, offset) in [
+        (0.0, 0.0),
+        (f64::NAN, 0.0),
+        (f64::INFINITY, 0.0),
+        (1.0, f64::NAN),
+    ] {
+        let shown = unit::METRE.shown_in("mm", factor, offset);
+        refused(
+            &with_row(INNER, |_| Subject::in_unit(shown)),
+            &["inner: display unit mm", "expected a finite factor"],
+        );
+    }
 }
 
 #[test]

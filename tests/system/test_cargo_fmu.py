@@ -1,8 +1,10 @@
 """`cargo fmu` where something is not as it should be, and on a package of this repository."""
 
+import os
 import re
 import subprocess
 import zipfile
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -71,20 +73,127 @@ def test_of_several_models_in_a_workspace_one_must_be_named(tmp_path: Path) -> N
         ({"dependency": ""}, "plant does not depend on fmu-export: expected it among the dependencies in"),
         (
             {"more": "[package.metadata.fmu]\nlogo = 'x'\n"},
-            "[package.metadata.fmu]: unknown field `logo`, expected one of `author`",
+            "[package.metadata.fmu]: logo: expected one of the keys author, copyright, licenses, icon, guide,",
         ),
         ({"more": "[package.metadata.fmu]\nicon = 'Cargo.toml'\n"}, 'icon = "Cargo.toml": expected a PNG file'),
-        ({"more": "[package.metadata.fmu]\nfmi = ['4.0']\n"}, "unknown variant `4.0`, expected `2.0` or `3.0`"),
+        ({"more": "[package.metadata.fmu]\nfmi = ['4.0']\n"}, 'fmi = ["4.0"]: expected ["2.0"], ["3.0"] or both'),
         ({"more": "[package.metadata.fmu]\nfmi = []\n"}, 'fmi = []: expected ["2.0"], ["3.0"] or both'),
         (
             {"more": "[package.metadata.fmu]\nguide = 'no.html'\n"},
             'guide = "no.html": expected a path beside Cargo.toml',
         ),
         ({"more": "[package.metadata.fmu]\npicture = 'Cargo.toml'\n"}, "expected a file that begins with <svg"),
+        ({"more": "[package.metadata.fmu]\nauthor = 3\n"}, "author = 3: expected a text"),
+        ({"more": "[package.metadata.fmu]\nicon = ['a.png']\n"}, 'icon = ["a.png"]: expected a text'),
+        ({"more": "[package.metadata.fmu]\nlicenses = 'LICENSE'\n"}, 'licenses = "LICENSE": expected a list of paths'),
+        ({"more": "[package.metadata.fmu]\nlicenses = ['a', 2]\n"}, 'licenses = ["a",2]: expected a list of paths'),
+        ({"more": "[package.metadata.fmu]\nfmi = '3.0'\n"}, 'fmi = "3.0": expected ["2.0"], ["3.0"] or both'),
+        ({"more": "[package.metadata.fmu]\nfmi = [3.0]\n"}, 'fmi = [3.0]: expected ["2.0"], ["3.0"] or both'),
+        ({"more": f"[package.metadata.fmu]\nresources = [{'1,' * 1000}]\n"}, "1,1…: expected a text"),
+        (
+            {"more": "[package.metadata]\nfmu = 3\n"},
+            "[package.metadata.fmu] = 3: expected a table with some of the keys",
+        ),
+        ({"more": "[[package.metadata.fmu]]\nauthor = 'x'\n"}, "expected a table with some of the keys author,"),
+        ({"more": "[package.metadata.FMU]\nauthor = 'x'\n"}, "[package.metadata.FMU]: expected [package.metadata.fmu]"),
+        (
+            {"more": "[package.metadata.cargo-fmu]\nauthor = 'x'\n"},
+            "[package.metadata.cargo-fmu]: expected [package.metadata.fmu]",
+        ),
+        (
+            {"more": '[package.metadata.fmu]\nauthor = "a\\u0007b"\n'},
+            'author = "a\\u{7}b": expected one line without control characters',
+        ),
+        (
+            {"more": '[package.metadata.fmu]\ncopyright = "a\\nb"\n'},
+            'copyright = "a\\nb": expected one line without control characters',
+        ),
+        (
+            {"more": "[package.metadata.fmu]\nlicenses = ['Cargo.toml', 'src/../Cargo.toml']\n"},
+            "licence texts Cargo.toml and Cargo.toml: expected file names that differ",
+        ),
+        (
+            {"more": "[package.metadata.fmu]\nresources = 'Cargo.toml'\n"},
+            'resources = "Cargo.toml": expected a folder (',
+        ),
+        ({"more": "[package.metadata.fmu]\nextra = 'none'\n"}, 'extra = "none": expected a folder ('),
     ],
 )
 def test_what_a_package_says_wrong_is_named(tmp_path: Path, made: dict[str, str], said: str) -> None:
     assert said in refused("build", "--offline", cwd=package(tmp_path, "plant", **made))
+
+
+def loop(folder: Path) -> None:
+    """Two links that lead up: each folder has 2ⁿ paths of n parts."""
+    (folder / "maps").mkdir()
+    for name in ("again", "back"):
+        (folder / "maps" / name).symlink_to(folder)
+
+
+def out(folder: Path) -> None:
+    """A link to the package, in which the folder lies."""
+    (folder / "package").symlink_to(folder.parent)
+
+
+def pipe(folder: Path) -> None:
+    """Nobody writes into it: reading would wait for ever."""
+    os.mkfifo(folder / "pipe")
+
+
+def endless(folder: Path) -> None:
+    """A link to a file without end."""
+    (folder / "zeros").symlink_to("/dev/zero")
+
+
+def nowhere(folder: Path) -> None:
+    """A link to what is not there."""
+    (folder / "lost").symlink_to("gone")
+
+
+def two_spellings(folder: Path) -> None:
+    """One file where case does not count."""
+    for name in ("Map.csv", "map.csv"):
+        (folder / name).write_text("", encoding="utf-8")
+
+
+def huge(folder: Path) -> None:
+    """A file of 2 GB, of which none is on the disk."""
+    with (folder / "huge").open("wb") as file:
+        file.truncate(2 << 30)
+
+
+@pytest.mark.parametrize(
+    ("made", "said"),
+    [
+        (
+            loop,
+            r"a folder \(\S*/data/maps/(again|back) leads back to \S*/data: expected links that lead to no folder above",
+        ),
+        (out, r"a folder \(\S*/data/package/data leads back to \S*/data: expected links"),
+        (pipe, r"\S*/data/pipe is neither a file nor a folder: expected files and folders"),
+        (endless, r"\S*/data/zeros is neither a file nor a folder"),
+        (nowhere, r"\S*/data/lost: No such file"),
+        (two_spellings, r"resources/map.csv beside resources/Map.csv: expected names that differ by more than case"),
+        (lambda f: (f / "größe.csv").write_bytes(b""), r"data/größe.csv\": expected a name of printable ASCII"),
+        (lambda f: (f / "a\\b").write_bytes(b""), r"expected a name of printable ASCII without a backslash"),
+        (lambda f: (f / "a\nb").write_bytes(b""), r"data/a\\nb\": expected a name of printable ASCII"),
+        (
+            lambda f: Path(os.fsdecode(os.fsencode(f) + b"/\xff")).write_bytes(b""),
+            r"expected a name of printable ASCII",
+        ),
+        (huge, r"data/huge has 2147483648 bytes: expected at most 1073741824"),
+    ],
+)
+def test_a_folder_that_cannot_go_into_an_archive_is_named(
+    tmp_path: Path, made: Callable[[Path], None], said: str
+) -> None:
+    here = package(tmp_path, "plant", more="[package.metadata.fmu]\nresources = 'data'\n")
+    (here / "data").mkdir()
+    made(here / "data")
+    assert re.search(
+        r'resources = "data": expected ' + (said if said.startswith("a folder") else ".*" + said),
+        refused("build", "--offline", cwd=here),
+    )
 
 
 def test_outside_of_a_package_and_on_what_is_no_fmu_it_says_what_was_expected(tmp_path: Path) -> None:

@@ -6,7 +6,7 @@ use crate::{Law, Real, real};
 use core::fmt;
 use fmu_declaration::check::{self, Expected, Objection};
 use fmu_declaration::range::{NOT_NEGATIVE, POSITIVE, Range};
-use fmu_declaration::{Causality, Rows};
+use fmu_declaration::{Brief, Causality, Rows};
 
 /// What all axes share and what stays fixed during a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -113,7 +113,7 @@ impl fmt::Display for ParameterError {
                 if let Some(axis) = axis {
                     write!(f, "[{axis}]")?;
                 }
-                write!(f, " = {value}: expected {expected}")
+                write!(f, " = {}: expected {expected}", Brief(value))
             }
             Self::NotOffered(law) => {
                 write!(

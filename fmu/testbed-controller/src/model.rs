@@ -7,6 +7,7 @@ use admittance::one_axis::form::TORQUE;
 use admittance::one_axis::{AxisInputs, AxisOutputs, AxisParameters, NotFinite};
 use admittance::parameters::in_range;
 use admittance::{Law, ParameterError};
+use fmu_declaration::Brief;
 use fmu_export::{Clock, Log, Model, Refusal, Sample, Sampler, Step};
 
 impl Model for TestbedController {
@@ -130,10 +131,11 @@ impl TestbedController {
             tau_a_measured,
             ..
         } = self.inputs;
+        let (q, tau_h) = (Brief(q), Brief(tau_h));
         let mut message =
             format!("{when}: the law's result is not finite with q = {q} m and tau_h = {tau_h} N");
         if self.parameters.form != TORQUE {
-            message += &format!(" and tau_a_measured = {tau_a_measured} N");
+            message += &format!(" and tau_a_measured = {} N", Brief(tau_a_measured));
         }
         Refusal(message)
     }

@@ -13,11 +13,11 @@
 //! fmi = ["3.0"]                               # the versions of the standard; without it "2.0" and "3.0"
 //! ```
 
-use crate::linked;
 use crate::process::{Failure, Outcome, at};
+use crate::table::{Table, wrong};
+use crate::{folder, linked};
 use cargo_metadata::Package;
-use fmu_archive::Standard;
-use serde::Deserialize;
+use fmu_archive::{Standard, licences};
 use std::path::Path;
 
 /// All of it, read.
@@ -48,17 +48,24 @@ pub struct Facts {
 }
 
 /// A version of the standard.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Version {
     /// FMI 2.0
-    #[serde(rename = "2.0")]
     Fmi2,
     /// FMI 3.0
-    #[serde(rename = "3.0")]
     Fmi3,
 }
 
 impl Version {
+    /// That of this name.
+    pub fn named(name: &str) -> Option<Self> {
+        match name {
+            "2.0" => Some(Self::Fmi2),
+            "3.0" => Some(Self::Fmi3),
+            _ => None,
+        }
+    }
+
     /// That of an archive.
     pub const fn of(standard: Standard) -> Self {
         if standard.is_fmi3() {
@@ -69,33 +76,13 @@ impl Version {
     }
 }
 
-#[derive(Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-struct Table {
-    author: Option<String>,
-    copyright: Option<String>,
-    licenses: Option<Vec<String>>,
-    icon: Option<String>,
-    guide: Option<String>,
-    picture: Option<String>,
-    resources: Option<String>,
-    extra: Option<String>,
-    fmi: Option<Vec<Version>>,
-}
-
 impl Facts {
     /// Reads what the package says; `root` is its workspace's folder.
     ///
     /// # Errors
     /// Names the key and what was expected.
     pub fn of(package: &Package, root: &Path) -> Outcome<Self> {
-        let table = match &package.metadata["fmu"] {
-            serde_json::Value::Null => Table::default(),
-            told => Table::deserialize(told).map_err(|error| {
-                let manifest = &package.manifest_path;
-                Failure::Found(format!("{manifest}: [package.metadata.fmu]: {error}"))
-            })?,
-        };
+        let table = Table::of(package)?;
         let folder = package
             .manifest_path
             .parent()
@@ -111,7 +98,7 @@ impl Facts {
         let icon = table.icon.as_deref().map(|path| {
             bytes("icon", path).and_then(|icon| match icon.starts_with(b"\x89PNG\r\n\x1a\n") {
                 true => Ok(icon),
-                false => Err(wrong(package, "icon", path, "a PNG file")),
+                false => Err(wrong_path(package, "icon", path, "a PNG file")),
             })
         });
         let picture = text("picture", &table.picture)?;
@@ -120,7 +107,7 @@ impl Facts {
             .as_deref()
             .filter(|_| !picture.trim_start().starts_with("<svg"))
         {
-            return Err(wrong(
+            return Err(wrong_path(
                 package,
                 "picture",
                 path,
@@ -130,8 +117,10 @@ impl Facts {
         let mut extra = Vec::new();
         for (key, path) in [("resources", &table.resources), ("extra", &table.extra)] {
             if let Some(path) = path {
-                below(&folder.join(path), key, &mut extra)
-                    .map_err(|error| unread(package, key, path, &error))?;
+                let files = folder::files(&folder.join(path), key).map_err(|what| {
+                    wrong_path(package, key, path, &format!("a folder ({what})"))
+                })?;
+                extra.extend(files);
             }
         }
         let texts = match &table.licenses {
@@ -147,16 +136,11 @@ impl Facts {
             }
             None => found(package, folder, root)?,
         };
+        one_name_each(&texts)?;
         let fmi = table
             .fmi
             .unwrap_or_else(|| vec![Version::Fmi2, Version::Fmi3]);
-        if fmi.is_empty() {
-            let manifest = &package.manifest_path;
-            return Err(Failure::Found(format!(
-                "{manifest}: [package.metadata.fmu]: fmi = []: expected [\"2.0\"], [\"3.0\"] or both"
-            )));
-        }
-        Ok(Self {
+        let facts = Self {
             fmi,
             manifest: package.manifest_path.to_string(),
             version: package.version.to_string(),
@@ -168,8 +152,40 @@ impl Facts {
             guide: text("guide", &table.guide)?,
             picture,
             extra,
-        })
+        };
+        facts.on_one_line()?;
+        Ok(facts)
     }
+
+    /// Refuses what XML cannot carry, and line ends, which no reader of the description keeps.
+    fn on_one_line(&self) -> Outcome {
+        for (key, text) in [
+            ("author", &self.author),
+            ("copyright", &self.copyright),
+            ("license", &self.license),
+        ] {
+            if !fmu_archive::name::is_line(text) {
+                let manifest = &self.manifest;
+                return Err(Failure::Found(format!(
+                    "{manifest}: {key} = {text:?}: expected one line without control characters"
+                )));
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Refuses two licence texts that would be one file of the archive.
+fn one_name_each(texts: &[(String, Vec<u8>)]) -> Outcome {
+    let mut names = std::collections::BTreeMap::new();
+    for (name, _) in texts {
+        if let Some(other) = names.insert(licences::file_name(name).to_lowercase(), name) {
+            return Err(Failure::Found(format!(
+                "licence texts {other} and {name}: expected file names that differ, because they lie in one folder of the archive"
+            )));
+        }
+    }
+    Ok(())
 }
 
 /// Licence texts: the file that the package names, those beside its manifest, or those of its workspace.
@@ -187,32 +203,11 @@ fn found(package: &Package, folder: &Path, root: &Path) -> Outcome<Vec<(String, 
     }
 }
 
-/// The files below a folder, by their paths in the archive.
-fn below(folder: &Path, prefix: &str, files: &mut Vec<(String, Vec<u8>)>) -> std::io::Result<()> {
-    for entry in std::fs::read_dir(folder)? {
-        let entry = entry?;
-        let name = format!("{prefix}/{}", entry.file_name().to_string_lossy());
-        if entry.path().is_dir() {
-            below(&entry.path(), &name, files)?;
-        } else {
-            files.push((name, std::fs::read(entry.path())?));
-        }
-    }
-    Ok(())
-}
-
 fn unread(package: &Package, key: &str, path: &str, error: &std::io::Error) -> Failure {
-    wrong(
-        package,
-        key,
-        path,
-        &format!("a path beside Cargo.toml ({error})"),
-    )
+    let expected = format!("a path beside Cargo.toml ({error})");
+    wrong_path(package, key, path, &expected)
 }
 
-fn wrong(package: &Package, key: &str, path: &str, expected: &str) -> Failure {
-    let manifest = &package.manifest_path;
-    Failure::Found(format!(
-        "{manifest}: [package.metadata.fmu]: {key} = {path:?}: expected {expected}"
-    ))
+fn wrong_path(package: &Package, key: &str, path: &str, expected: &str) -> Failure {
+    wrong(package, key, &format!("{path:?}"), expected)
 }

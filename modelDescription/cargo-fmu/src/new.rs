@@ -1,11 +1,15 @@
 //! A package to begin with: a mass on a spring with a damper, and a test that steps it.
 
 use crate::process::{Failure, Outcome, at, cargo, program};
+use fmu_archive::name::{LONGEST_MODEL_NAME, is_model_name};
 use std::path::{Path, PathBuf};
 
 const MANIFEST: &str = include_str!("../template/Cargo.toml.in");
 const MODEL: &str = include_str!("../template/lib.rs.in");
 const TEST: &str = include_str!("../template/test.py.in");
+
+/// Names that mean something else where the model is declared.
+const TAKEN: [&str; 6] = ["Log", "Model", "Refusal", "Step", "Result", "Self"];
 
 /// Where the SDK's crates come from.
 #[derive(Clone, Debug)]
@@ -56,6 +60,13 @@ pub fn package(folder: &Path, sdk: &Sdk) -> Outcome<Vec<PathBuf>> {
             "{name:?}: expected the name of a package: small letters, digits, - and _, beginning with a letter"
         )));
     }
+    let model = model(&name);
+    if !is_model_name(&model) || TAKEN.contains(&model.as_str()) {
+        return Err(Failure::Found(format!(
+            "{name:?}: the model would be called {model:?}; expected another name than those of C, Windows, Rust and the SDK, with at \
+             most {LONGEST_MODEL_NAME} letters"
+        )));
+    }
     if folder.exists() {
         return Err(Failure::Found(format!(
             "{}: is there already",
@@ -67,7 +78,7 @@ pub fn package(folder: &Path, sdk: &Sdk) -> Outcome<Vec<PathBuf>> {
     let fill = |text: &str| {
         text.replace("{{name}}", &name)
             .replace("{{module}}", &module)
-            .replace("{{Model}}", &model(&name))
+            .replace("{{Model}}", &model)
             .replace("{{export}}", &export)
     };
     let mut files = Vec::new();
@@ -147,6 +158,11 @@ mod tests {
                     .contains("expected the name of a package"),
                 "{name}"
             );
+        }
+        for name in ["step", "self", "con", "lpt1", &"a".repeat(201)] {
+            let message = package(&Path::new("/nowhere").join(name), &Sdk::Registry).unwrap_err();
+            let message = message.to_string();
+            assert!(message.contains("expected another name"), "{message}");
         }
         let sdk = Sdk::Sources("/nowhere".into());
         let message = package(Path::new("/nowhere/plant"), &sdk)

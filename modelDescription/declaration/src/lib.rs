@@ -57,6 +57,7 @@
 
 extern crate self as fmu_declaration;
 
+mod brief;
 pub mod check;
 pub mod compose;
 pub mod description;
@@ -73,6 +74,7 @@ mod rows;
 pub mod unit;
 pub mod variable;
 
+pub use brief::Brief;
 pub use compose::Rows;
 pub use description::{Declare, Description, Experiment, Scalar, Stepping};
 pub use fmu_declaration_derive::{Rows, Start};

@@ -7,7 +7,7 @@ use crate::kind::{Kind, TIME};
 use crate::legality::Phase;
 use crate::model::{Model, Refusal};
 use crate::provenance::text;
-use fmu_declaration::{Access, Causality, Enumeration, Place, Provenance, Range, Variable};
+use fmu_declaration::{Access, Brief, Causality, Enumeration, Place, Provenance, Range, Variable};
 use std::convert::Infallible;
 
 /// A value of the interface, and what a row demands of it.
@@ -86,6 +86,7 @@ fn beyond_single(value: f64, unit: &str) -> String {
 fn out_of_range(value: f64, unit: &str, range: &Range) -> String {
     let (Range { low, high, .. }, unit) = (range, behind(unit));
     if value.is_finite() {
+        let (value, low, high) = (Brief(value), Brief(*low), Brief(*high));
         format!("= {value}{unit}, expected a value from {low} to {high}")
     } else {
         format!("= {value}{unit}, expected a finite value")

@@ -2,6 +2,7 @@
 
 use crate::Refusal;
 use crate::time::Step;
+use fmu_declaration::Brief;
 use serde::{Deserialize, Serialize};
 
 /// A communication point may differ from the expected one by this share of the step: importers carry `i·h`, a running
@@ -91,12 +92,15 @@ impl Clock {
                 format!("communicationStepSize = {h:?} s, expected a finite normal number above 0")
             }
             NotNext::Point => {
-                let expected = self.time;
+                let (expected, t) = (Brief(self.time), Brief(t));
                 format!("expected currentCommunicationPoint {expected} s, got {t} s")
             }
-            NotNext::End => format!(
-                "communicationStepSize = {h} s does not advance the time {t} s to a later finite time"
-            ),
+            NotNext::End => {
+                let (h, t) = (Brief(h), Brief(t));
+                format!(
+                    "communicationStepSize = {h} s does not advance the time {t} s to a later finite time"
+                )
+            }
         }
     }
 
@@ -153,9 +157,9 @@ impl Clock {
         if (count as f64 - expected).abs() <= slack {
             return Ok(());
         }
-        let elapsed = self.elapsed();
+        let (elapsed, expected) = (self.elapsed(), Brief(expected.round()));
         Err(Refusal(format!(
-            "{name} = {count}, expected {expected:.0} periods of {period:?} s in the {elapsed:?} s since the start"
+            "{name} = {count}, expected {expected} periods of {period:?} s in the {elapsed:?} s since the start"
         )))
     }
 }

@@ -2,6 +2,7 @@
 //! every variable's row and is asked for with every state.
 
 use crate::model::Model;
+use crate::shape;
 use std::any::TypeId;
 use std::sync::OnceLock;
 
@@ -12,7 +13,8 @@ pub(crate) const GUID: usize = 38;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Identity {
     guid: [u8; GUID],
-    /// Tells layouts of the state apart that the interface, and so the guid, does not: CRC-32 of the start state as bytes.
+    /// Tells layouts of the state apart that the interface, and so the guid, does not: CRC-32 of the start state as bytes, and
+    /// of its shape.
     pub(crate) layout: u32,
 }
 
@@ -42,9 +44,10 @@ impl Identity {
             .into_bytes()
             .try_into()
             .map_err(|_| format!("a guid of {length} bytes, expected {GUID}"))?;
-        let layout = postcard::to_allocvec(&M::default())
-            .map(|bytes| crc32fast::hash(&bytes))
+        let start = M::default();
+        let bytes = postcard::to_allocvec(&start)
             .map_err(|e| format!("the model cannot be serialized: {e}"))?;
+        let layout = crc32fast::hash(&bytes) ^ shape::of(&start);
         Ok(Self { guid, layout })
     }
 
@@ -57,21 +60,27 @@ impl Identity {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Log, Refusal, Step};
+    use crate::legality::Phase;
+    use crate::snapshot::Snapshot;
+    use crate::{Clock, Log, Refusal, Step};
     use fmu_declaration::{Declare, Description, Experiment, Rows, Start, Stepping};
     use serde::{Deserialize, Serialize};
 
     macro_rules! model {
         ($name:ident) => {
+            model! { $name stringify!($name), }
+        };
+        ($name:ident $called:expr, $($state:ident)*) => {
             #[derive(Clone, Serialize, Deserialize, Rows, Start)]
             struct $name {
                 #[output(0)]
                 x: f64,
+                $($state: f64,)*
             }
 
             impl Declare for $name {
                 const DESCRIPTION: Description<Self> = Description {
-                    name: stringify!($name),
+                    name: $called,
                     about: "one number",
                     stepping: Stepping::Exact,
                     experiment: Experiment {
@@ -96,6 +105,9 @@ mod tests {
     }
     model!(One);
     model!(Other);
+    model!(Tank "Tank", level speed);
+    model!(TankLater "Tank", speed level);
+    model!(TankRenamed "Tank", level flow);
 
     #[test]
     fn two_models_in_one_program_keep_their_own_identity() {
@@ -107,6 +119,31 @@ mod tests {
             assert_eq!(
                 Identity::of::<Other>().map(|i| i.guid().to_owned()),
                 Ok(Other::DESCRIPTION.guid())
+            );
+        }
+    }
+
+    #[test]
+    fn a_state_of_a_version_whose_hidden_states_changed_places_or_names_is_refused() {
+        fn state<M: Model>() -> Snapshot<M> {
+            Snapshot {
+                phase: Phase::Instantiated,
+                clock: Clock::default(),
+                model: M::default(),
+            }
+        }
+        let bytes = state::<Tank>().to_bytes().unwrap();
+        assert!(Snapshot::<Tank>::from_bytes(&bytes).is_ok());
+        assert_eq!(Tank::DESCRIPTION.guid(), TankLater::DESCRIPTION.guid());
+        for refused in [
+            Snapshot::<TankLater>::from_bytes(&bytes).err(),
+            Snapshot::<TankRenamed>::from_bytes(&bytes).err(),
+        ] {
+            assert_eq!(
+                refused.as_deref(),
+                Some(
+                    "serialized state: from another version of this FMU, with other internal states"
+                )
             );
         }
     }

@@ -10,6 +10,7 @@ use crate::routes::Routes;
 use crate::slots::Slots;
 use crate::snapshot::Snapshot;
 use crate::stop::StopTime;
+use fmu_declaration::Brief;
 use std::ffi::{CStr, CString};
 use std::path::PathBuf;
 
@@ -137,11 +138,13 @@ impl<M: Model> Instance<M> {
             ));
         }
         if let Some(stop) = stop.filter(|&stop| stop.is_nan() || stop < start_time) {
+            let (stop, start_time) = (Brief(stop), Brief(start_time));
             return refused(format!(
                 "stopTime = {stop} s, expected at least startTime = {start_time} s"
             ));
         }
         if let Some(tolerance) = tolerance.filter(|t| !t.is_finite() || *t < 0.0) {
+            let tolerance = Brief(tolerance);
             return refused(format!(
                 "tolerance = {tolerance}, expected a finite value, at least 0"
             ));
@@ -163,7 +166,7 @@ impl<M: Model> Instance<M> {
         self.initialize()?;
         self.routes.make_room();
         self.now.phase = Phase::StepComplete;
-        let start_time = self.now.clock.start_time();
+        let start_time = Brief(self.now.clock.start_time());
         self.log().event(format_args!(
             "{} initialized at t = {start_time} s",
             M::DESCRIPTION.name
@@ -190,7 +193,7 @@ impl<M: Model> Instance<M> {
     /// fmi2Terminate, fmi3Terminate
     pub(crate) fn terminate(&mut self) -> Outcome {
         self.now.phase = Phase::Terminated;
-        let time = self.now.clock.time();
+        let time = Brief(self.now.clock.time());
         self.log().event(format_args!(
             "{} terminated at t = {time} s",
             M::DESCRIPTION.name

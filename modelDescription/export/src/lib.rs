@@ -64,6 +64,7 @@ pub mod provenance;
 pub mod resource;
 pub mod routes;
 mod sampler;
+mod shape;
 mod slots;
 pub mod snapshot;
 mod stop;

@@ -2,6 +2,7 @@
 
 use crate::time::Step;
 use crate::{Clock, Log, Refusal};
+use fmu_declaration::Brief;
 use serde::{Deserialize, Serialize};
 
 /// Steps in a period from which on the period is the one that was asked for, whatever the step size: what it is off by is
@@ -162,8 +163,9 @@ impl Sampler {
         }
         let expected = last / period + 1.0;
         if (next as f64 - expected).abs() > 2.0 + f64::EPSILON * expected {
+            let expected = Brief(expected.round());
             return Err(Refusal(format!(
-                "number of ticks = {next}, expected {expected:.0} periods of {period:?} s"
+                "number of ticks = {next}, expected {expected} periods of {period:?} s"
             )));
         }
         Ok(())

@@ -5,7 +5,7 @@
 //! | 0 | 8 | magic `FMI2STAT` |
 //! | 8 | 4 | version of this format, little-endian |
 //! | 12 | 38 | guid of the FMU, ASCII |
-//! | 50 | 4 | CRC-32 of the model's start state as bytes: changes with the layout of the state |
+//! | 50 | 4 | CRC-32 of the model's start state as bytes, and of the names and types in it: changes with the layout of the state |
 //! | 54 | 8 | length of the payload, little-endian |
 //! | 62 | 4 | CRC-32 of the payload, little-endian |
 //! | 66 | … | payload: phase, clock and the model, by serde and postcard (floats bit for bit) |

@@ -62,6 +62,9 @@ impl Step {
 
     /// Splits the step into equal substeps no longer than `longest` (s): their number and their length (s). The last
     /// one ends exactly at `t + h`; no time is accumulated.
+    ///
+    /// A step of more than 2³² − 1 substeps gets longer ones. A model whose [`accepts`](crate::Model::accepts) calls
+    /// [`at_most`](Self::at_most) never sees one.
     pub fn substeps(&self, longest: f64) -> (u32, f64) {
         // A step of 25.000000001 substeps is one of 25: the excess is the importer's rounding.
         let n = (self.h / longest - 1e-6)

@@ -209,3 +209,37 @@ fn arrays_may_be_longer_than_serde_knows_and_are_the_bytes_that_shorter_ones_are
     let cell = 8 * (1 + 2 * (N + 1));
     assert_eq!(bytes.len(), 8 * 200 + N * cell + 32 + 1 + 8 + 8 * 32);
 }
+
+/// A model may have the name of one of the standard's types, and stand beside one of Rust's.
+mod named_like_others {
+    use fmu_export::{Log, Model, Refusal, Step, interface};
+
+    #[allow(dead_code, reason = "only its name matters")]
+    struct Option;
+
+    /// it is called like what the functions return
+    #[interface(step = 0.1)]
+    pub struct Status {
+        /// how often it stepped
+        #[output(0)]
+        count: i32,
+    }
+
+    impl Model for Status {
+        fn initialize(&mut self, _: f64, _: &mut Log<'_>) -> Result<(), Refusal> {
+            Ok(())
+        }
+
+        fn step(&mut self, _: Step, _: &mut Log<'_>) -> Result<(), Refusal> {
+            self.count += 1;
+            Ok(())
+        }
+    }
+
+    fmu_export::export!(Status);
+}
+
+#[test]
+fn a_model_that_is_called_like_a_type_of_the_standard_is_exported() {
+    assert_eq!(named_like_others::Status::DESCRIPTION.name, "Status");
+}

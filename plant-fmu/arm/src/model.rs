@@ -3,6 +3,7 @@
 use crate::ExoskeletonArm;
 use crate::force_sensor::Reading;
 use crate::rows::{Outputs, RigidBody};
+use fmu_declaration::Brief;
 use fmu_export::access::check_parameters;
 use fmu_export::{Clock, Log, Model, Refusal, Step};
 use mechanics::arm::surface::TooStiff;
@@ -66,7 +67,7 @@ impl Model for ExoskeletonArm {
                 (false, false) => "payload released",
                 (false, true) => "payload lost: the bond broke",
             };
-            log.event(format_args!("{what} before t = {} s", step.t + step.h));
+            log.event(format_args!("{what} before t = {} s", Brief(step.t + step.h)));
         }
         if !(energy.residual.is_finite() && p.iter().all(|p| p.is_finite())) {
             return Err(Refusal(format!(

@@ -3,6 +3,7 @@
 use crate::ExoskeletonArms;
 use crate::rows::{Inputs, Outputs, Side};
 use exoskeleton_arm::model::{check_payload, tell};
+use fmu_declaration::Brief;
 use fmu_export::access::check_parameters;
 use fmu_export::{Log, Model, Refusal, Step};
 use mechanics::arm::Arm;
@@ -43,7 +44,7 @@ impl Model for ExoskeletonArms {
                 (false, false) => "payload released by both cups",
                 (false, true) => "payload lost: the bond of one cup broke, both are free",
             };
-            log.event(format_args!("{what} before t = {} s", step.t + step.h));
+            log.event(format_args!("{what} before t = {} s", Brief(step.t + step.h)));
         }
         let positions = [&shown.left, &shown.right]
             .into_iter()

@@ -5,6 +5,7 @@ use crate::hand::Hand;
 use crate::history::Sample;
 use crate::profile::{self, Segment};
 use crate::rows::{Inputs, Outputs};
+use fmu_declaration::Brief;
 use fmu_export::access::check_parameters;
 use fmu_export::{Clock, Log, Model, Refusal, Step};
 
@@ -13,7 +14,7 @@ impl Model for HumanOperator {
         check_parameters(self)?;
         if let Some(i) = profile::backward(&self.segments) {
             let Segment { t_on, t_off, .. } = self.segments[i];
-            let i = i + 1;
+            let (i, t_on, t_off) = (i + 1, Brief(t_on), Brief(t_off));
             return Err(Refusal(format!(
                 "segment[{i}].t_off = {t_off} s, expected at least segment[{i}].t_on = {t_on} s"
             )));

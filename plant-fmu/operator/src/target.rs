@@ -1,7 +1,7 @@
 //! The moving target: how far the place where the hand wants to be is from where it took hold, and how fast it moves.
 
 use crate::profile::SAME_INSTANT;
-use fmu_declaration::{Enumeration, Item, Rows, Start};
+use fmu_declaration::{Brief, Enumeration, Item, Rows, Start};
 use serde::{Deserialize, Serialize};
 
 /// Number of points.
@@ -145,8 +145,8 @@ impl Target {
         if self.t_off - self.t_on < self.ramp && self.kind == SINE {
             return Some(format!(
                 "target.t_off = {} s, expected at least target.t_on + target.ramp = {} s",
-                self.t_off,
-                self.t_on + self.ramp
+                Brief(self.t_off),
+                Brief(self.t_on + self.ramp)
             ));
         }
         if self.kind != MINIMUM_JERK && self.kind != TABLE {
@@ -163,9 +163,9 @@ impl Target {
             if later.t <= earlier.t {
                 return Some(format!(
                     "target.point[{i}].t = {} s, expected more than target.point[{}].t = {} s",
-                    later.t,
+                    Brief(later.t),
                     i - 1,
-                    earlier.t
+                    Brief(earlier.t)
                 ));
             }
         }

@@ -21,14 +21,14 @@ macro_rules! export_fmi3 {
             type Model = $model;
 
             $crate::export_fmi3! { @ functions
-                fn fmi3InstantiateModelExchange(name: FmiString, token: FmiString, resources: FmiString, _visible: Boolean, logging: Boolean, environment: *mut c_void, log_message: Option<LogMessage>) -> Component
+                fn fmi3InstantiateModelExchange(name: FmiString, token: FmiString, resources: FmiString, _visible: Boolean, logging: Boolean, environment: *mut c_void, log_message: ::core::option::Option<LogMessage>) -> Component
                     { fmi3::instantiate_model_exchange::<Model>(Common { name, token, resources, logging, logger: Logger { log_message, environment } }) }
-                fn fmi3InstantiateCoSimulation(name: FmiString, token: FmiString, resources: FmiString, _visible: Boolean, logging: Boolean, event_mode_used: Boolean, _early_return_allowed: Boolean, _intermediate_variables: *const ValueReference, n: usize, environment: *mut c_void, log_message: Option<LogMessage>, _intermediate_update: Uncalled) -> Component
+                fn fmi3InstantiateCoSimulation(name: FmiString, token: FmiString, resources: FmiString, _visible: Boolean, logging: Boolean, event_mode_used: Boolean, _early_return_allowed: Boolean, _intermediate_variables: *const ValueReference, n: usize, environment: *mut c_void, log_message: ::core::option::Option<LogMessage>, _intermediate_update: Uncalled) -> Component
                 {
                     $crate::provenance::tell($crate::built_from!());
                     fmi3::instantiate_co_simulation::<Model>(Common { name, token, resources, logging, logger: Logger { log_message, environment } }, event_mode_used, n)
                 }
-                fn fmi3InstantiateScheduledExecution(name: FmiString, token: FmiString, resources: FmiString, _visible: Boolean, logging: Boolean, environment: *mut c_void, log_message: Option<LogMessage>, _clock_update: Uncalled, _lock_preemption: Uncalled, _unlock_preemption: Uncalled) -> Component
+                fn fmi3InstantiateScheduledExecution(name: FmiString, token: FmiString, resources: FmiString, _visible: Boolean, logging: Boolean, environment: *mut c_void, log_message: ::core::option::Option<LogMessage>, _clock_update: Uncalled, _lock_preemption: Uncalled, _unlock_preemption: Uncalled) -> Component
                 {
                     $crate::provenance::tell($crate::built_from!());
                     fmi3::instantiate_scheduled_execution::<Model>(Common { name, token, resources, logging, logger: Logger { log_message, environment } })

@@ -11,8 +11,11 @@ mod fmi3;
 #[macro_export]
 macro_rules! export {
     ($model:ty) => {
-        $crate::export_fmi2! { $model }
-        $crate::export_fmi3! { $model }
+        // Said out here: where the functions are, a model of a name such as Status would be the SDK's.
+        #[doc(hidden)]
+        type __ExportedModel = $model;
+        $crate::export_fmi2! { __ExportedModel }
+        $crate::export_fmi3! { __ExportedModel }
         $crate::hand_over! { $model }
     };
 }
