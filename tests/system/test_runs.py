@@ -63,6 +63,16 @@ def test_a_row_that_fails_is_a_row_with_its_reason_and_the_next_one_is_unharmed(
     assert found["release_delay"][0] == found["release_delay"][2] > 0.0
 
 
+def test_a_row_that_ends_in_the_middle_names_scenario_case_component_and_time(fmu_dir: Path) -> None:
+    for branch_at, t in ((None, 0), (19.0, 19)):
+        found = exo.batch("wall", {"plant.tau_d": [1e300]}, cases=[WALL], branch_at=branch_at, fmu_dir=fmu_dir)
+        said = found[FAILURE][0].as_py()
+        assert said.startswith(f"wall: case {WALL}: plant: fmi2DoStep returned fmi2Error")
+        assert said.endswith(f"(step at t = {t} s)")
+    with pytest.raises(FmuError, match=f"wall: case {WALL}: plant: fmi2DoStep returned"):
+        exo.simulate("wall", case=WALL, parameters={"plant.tau_d": 1e300}, fmu_dir=fmu_dir)
+
+
 def test_rows_set_forces_and_times_too(fmu_dir: Path) -> None:
     rows = {"profile.tau_h.1.amplitude": [0.0, 5.0], "duration": [2.0, 4.0]}
     with Batch("wall", cases=[WALL], fmu_dir=fmu_dir) as runs:

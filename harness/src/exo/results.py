@@ -25,7 +25,7 @@ def metrics_document(experiment: Experiment) -> dict[str, Any]:
     document = {
         "schema": SCHEMA_ID,
         "scenario": experiment.scenario.id,
-        "verdict": "pass" if experiment.passed else "fail",
+        "verdict": experiment.verdict,
         "metrics": {result.id: result.as_json() for result in experiment.results},
         "run": experiment.description(),
     }

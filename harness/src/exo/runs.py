@@ -31,7 +31,7 @@ from exo import loop as loops
 from exo import metrics as measures
 from exo import preflight, selection, trial
 from exo import scenario as scenarios
-from exo.errors import ExoError, ScenarioError, close_matches
+from exo.errors import ExoError, ScenarioError, close_matches, in_case
 from exo.fmu import Archive, find_fmu_dir
 from exo.loop import Engine
 from exo.plan import plan
@@ -143,7 +143,9 @@ class Batch:
             recordings: dict[str, Look] = {}
             for case in self.scenario.cases:
                 runs = self._runs[case.id]
-                recordings[case.id] = runs.look(planned(row, runs.plan), self.scenario.derived)
+                made = planned(row, runs.plan)
+                with in_case(self.scenario.id, case.id):
+                    recordings[case.id] = runs.look(made, self.scenario.derived)
             return Outcome(self._numbers(recordings))
         except ExoError as error:
             return Outcome({}, " ".join(str(error).split()))
