@@ -153,7 +153,7 @@ def changed(K: float, *, at: float, engine: loop.Engine, fmu_dir: Path) -> float
         (np.ones((2, 2)), None, "of type ndarray; expected columns by name"),
         (pd.DataFrame([[1.0, 2.0]], columns=["controller.K"] * 2), None, "expected each column once"),
         (pd.DataFrame({"controller.K": pd.array([1, None], dtype="Int64")}), None, "true or false, got <NA>"),
-        ([{"controller.K": 1.0}, {"plant.M": 1.0}], None, "row 1 has no controller.K, row 0 has; expected it in each"),
+        ([{"controller.K": 1.0}, {"plant.M": 1.0}], None, "row 1 has no controller.K, row 0 has; expected each to"),
         ([{"controller.K": 1.0}, {"controller.K": 1.0, "plant.M": 1.0}], None, "row 0 has no plant.M, row 1 has"),
     ],
 )

@@ -64,7 +64,7 @@ def _turned(rows: Sequence[Mapping[Any, Any]]) -> dict[Any, Any]:
         for key in [*rows[0], *row]:
             if key not in row or key not in rows[0]:
                 with_it, without = (i, 0) if key in row else (0, i)
-                raise ScenarioError(f"parameters: row {without} has no {key}, row {with_it} has; expected it in each row")
+                raise ScenarioError(f"parameters: row {without} has no {key}, row {with_it} has; expected each to")
     return {key: [row[key] for row in rows] for key in (rows[0] if rows else ())}
 
 

@@ -62,8 +62,8 @@ def batch(
 
     `scenario` is what `exo.read_scenario` takes. `parameters` are columns by name (lists, arrays of NumPy or Arrow), a
     table of Arrow or pandas, or a list of rows. `cases` are ids or patterns, all cases without them; `metrics` are ids
-    of metrics and ratios, all without them. `branch_at` (s) as above. `engine` is native where it is installed. A row that
-    fails is a row with its reason in `failure`, and NaN for numbers.
+    of metrics and ratios, all without them. `branch_at` (s) as above. `engine` is native where it is installed.
+    A row that fails is a row with its reason in `failure`, and NaN for numbers.
     ScenarioError and FmuError name what is wrong with all rows: a key, a scenario, an archive.
     """
     rows = rows_of(parameters)
