@@ -29,6 +29,8 @@ from exo.scenario import Scenario, Value
 from exo.sweep.study import Study
 
 STUDY, TABLE, PARTS = "study.json", "runs.parquet", "parts"
+#: What of a study is only read or drawn; and letters of a value in a message.
+TEXTS, QUOTED = ("title", "about", "label", "figures"), 60
 #: Column of a row's number, and of the time that it took (s).
 ROW, SECONDS = "row", "seconds"
 
@@ -108,17 +110,14 @@ class Store:
             there = json.loads(path.read_text(encoding="utf-8"))
         except (OSError, ValueError) as error:
             raise ExoError(f"{path}: {error}; expected another --out, or --fresh") from error
-        changed = [key for key, value in self._asked.items() if there.get(key) != json.loads(json.dumps(value))]
-        # Pictures may be drawn anew.
-        if changed == ["study"] and _without_figures(there) == _without_figures(self._asked):
-            text = json.dumps({**there, **self._asked}, indent=2, ensure_ascii=False)
-            folder.write_file(path, (text + "\n").encode())
+        asked = json.loads(json.dumps(self._asked))
+        if isinstance(there, dict) and _numbers_of(there) == _numbers_of(asked):
+            if there != {**there, **asked}:  # pictures and texts may be others
+                text = json.dumps({**there, **asked}, indent=2, ensure_ascii=False)
+                folder.write_file(path, (text + "\n").encode())
             return
-        if changed:
-            told = ", ".join(changed)
-            raise ExoError(
-                f"{self.folder}: holds the results of another study: {told} differ; expected another --out, or --fresh"
-            )
+        what = _difference(_numbers_of(there), _numbers_of(asked), "")
+        raise ExoError(f"{self.folder}: holds the results of another study: {what}; expected another --out, or --fresh")
 
     def _drop_broken(self) -> None:
         """Removes what a machine that was switched off has left half written: those rows run again."""
@@ -138,9 +137,15 @@ class Store:
         """Numbers of the rows that have run."""
         if (self.folder / TABLE).exists():
             try:
-                return set(pq.read_table(self.folder / TABLE, columns=[ROW])[ROW].to_pylist())
+                rows = pq.read_table(self.folder / TABLE, columns=[ROW])[ROW].to_pylist()
             except (OSError, pa.ArrowException, KeyError) as error:
                 raise ExoError(f"{self.folder / TABLE}: cannot be read; expected another --out, or --fresh") from error
+            if sorted(rows) != list(range(len(self._rows))):
+                raise ExoError(
+                    f"{self.folder / TABLE}: has {len(rows)} rows, not rows 0 to {len(self._rows) - 1} once each; "
+                    "expected another --out, or --fresh"
+                )
+            return set(rows)
         found: set[int] = set()
         for path in self._parts():
             found.update(pq.read_table(path, columns=[ROW])[ROW].to_pylist())
@@ -203,6 +208,32 @@ class Store:
         return table
 
 
-def _without_figures(asked: dict[str, Any]) -> dict[str, Any]:
-    study = {key: value for key, value in asked["study"].items() if key != "figures"}
-    return dict(json.loads(json.dumps(study)))
+def _numbers_of(asked: Any) -> dict[str, Any]:
+    """What the rows' numbers come from: all but what is only read or drawn."""
+    asked = asked if isinstance(asked, dict) else {}
+    study = asked.get("study")
+    study = {key: value for key, value in study.items() if key not in TEXTS} if isinstance(study, dict) else {}
+    if isinstance(study.get("axes"), dict):
+        study["axes"] = {
+            name: {key: value for key, value in axis.items() if key not in TEXTS} if isinstance(axis, dict) else axis
+            for name, axis in study["axes"].items()
+        }
+    return {"study": study, **{key: asked.get(key) for key in ("scenario", "fmus", "runs", "rows")}}
+
+
+def _difference(there: Any, asked: Any, at: str) -> str:
+    """The first difference, by its key."""
+    if isinstance(there, dict) and isinstance(asked, dict):
+        for key in [*asked, *there]:
+            if there.get(key) != asked.get(key):
+                return _difference(there.get(key), asked.get(key), f"{at}.{key}" if at else key)
+    if at == "rows":
+        return "other samples of the same seed, of another version of scipy"
+    if at.startswith("fmus."):
+        return f"{at.removeprefix('fmus.')} is another one"
+    return f"{at} is {_short(asked)}, was {_short(there)}"
+
+
+def _short(value: Any) -> str:
+    text = json.dumps(value, ensure_ascii=False)
+    return text if len(text) <= QUOTED else f"{text[:QUOTED]}…"
