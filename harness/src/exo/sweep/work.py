@@ -70,7 +70,9 @@ def _opened(task: Task) -> Batch:
 
 def _check_archives(task: Task) -> None:
     """ExoError, if an archive is another one than at the beginning: a worker that begins later would mix their rows."""
-    for name, checksum in task.checksums.items() if task.fmu_dir is not None else ():
+    if task.fmu_dir is None:
+        return
+    for name, checksum in task.checksums.items():
         path = task.fmu_dir / name
         try:
             there = hashlib.sha256(path.read_bytes()).hexdigest()
