@@ -156,8 +156,11 @@ def test_a_run_by_the_clock_takes_its_time_and_finds_the_same(
 def test_an_overrun_is_a_step_that_ends_after_the_next_one_is_due() -> None:
     late, busy = np.array([0.0, 0.1, 0.9, 0.0]), np.array([0.2, 0.95, 0.05, 1.5])
     found = Deadlines.of(late, busy, 1.0)
-    assert found.overruns == 2
-    assert "4 steps of 1000 ms by the clock: 2 overruns" in found.sentence()
+    assert (found.overruns, found.overruns_at) == (2, (1.0, 3.0))
+    assert "4 steps of 1000 ms by the clock: 2 overruns (at t = 1, 3 s); began" in found.sentence()
+    quick = Deadlines.of(np.full(1000, 3.4e-7), np.full(1000, 2.0), 1.0)
+    assert (quick.overruns, len(quick.overruns_at)) == (1000, 100)
+    assert "1000 overruns (at t = 0, 1, 2, 3, 4, … s); began 0.34 µs late in the middle" in quick.sentence()
 
 
 def test_the_command_line_tells_the_deadlines(tmp_path: Path) -> None:
