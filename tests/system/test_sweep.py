@@ -2,6 +2,7 @@
 
 import errno
 import json
+import re
 import shutil
 import tempfile
 import zipfile
@@ -11,6 +12,7 @@ from typing import Any
 
 import pyarrow.parquet as pq
 import pytest
+from matplotlib.figure import Figure
 
 from exo import folder, sweep
 from exo.commands.sweep import Line
@@ -168,6 +170,27 @@ def test_a_full_disk_is_named_and_what_is_finished_is_kept(
     done = sweep.sweep(study_file, out=tmp_path, workers=1, fmu_dir=fmu_dir, tell=told.append)
     assert told[0].kept_before > 0
     assert done.table[store.ROW].to_pylist() == list(range(6))
+
+
+@pytest.mark.parametrize("what", ["study.json", "map.png"])
+def test_a_disk_that_is_full_at_first_or_at_last_is_named_with_the_file(
+    what: str, study_file: Path, fmu_dir: Path, tmp_path: Path, monkeypatch: Any
+) -> None:
+    full = OSError(errno.ENOSPC, "No space left on device")
+
+    def write_file(path: Path, data: bytes) -> None:
+        if path.name == what:
+            raise full
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_bytes(data)
+
+    def savefig(*_: Any, **__: Any) -> None:
+        raise full
+
+    monkeypatch.setattr(folder, "write_file", write_file)
+    monkeypatch.setattr(Figure, "savefig", savefig)
+    with pytest.raises(ExoError, match=rf"{re.escape(what)}: .*No space left on device"):
+        sweep.sweep(study_file, out=tmp_path, workers=1, fmu_dir=fmu_dir)
 
 
 def test_the_table_opens_in_parquet_with_what_was_asked_for_beside_it(

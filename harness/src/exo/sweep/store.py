@@ -103,8 +103,7 @@ class Store:
             if self.done():
                 raise ExoError(f"{self.folder}: has parts and no {STUDY}; expected another --out, or --fresh")
             versions = {name: metadata.version(name) for name in ("exo", "numpy", "scipy")}
-            text = json.dumps({**self._asked, "versions": versions}, indent=2, ensure_ascii=False)
-            folder.write_file(path, (text + "\n").encode())
+            self._describe({**self._asked, "versions": versions})
             return
         try:
             there = json.loads(path.read_text(encoding="utf-8"))
@@ -113,8 +112,7 @@ class Store:
         asked = json.loads(json.dumps(self._asked))
         if isinstance(there, dict) and _numbers_of(there) == _numbers_of(asked):
             if there != {**there, **asked}:  # pictures and texts may be others
-                text = json.dumps({**there, **asked}, indent=2, ensure_ascii=False)
-                folder.write_file(path, (text + "\n").encode())
+                self._describe({**there, **asked})
             return
         what = _difference(_numbers_of(there), _numbers_of(asked), "")
         raise ExoError(f"{self.folder}: holds the results of another study: {what}; expected another --out, or --fresh")
@@ -168,11 +166,15 @@ class Store:
         sink = pa.BufferOutputStream()
         pq.write_table(pa.table(columns), sink)
         first = min(one.row for one in done)
-        self._write(self.folder / PARTS / f"{first:08}.parquet", sink)
+        self._write(self.folder / PARTS / f"{first:08}.parquet", sink.getvalue().to_pybytes())
 
-    def _write(self, path: Path, sink: pa.BufferOutputStream) -> None:
+    def _describe(self, asked: dict[str, Any]) -> None:
+        text = json.dumps(asked, indent=2, ensure_ascii=False)
+        self._write(self.folder / STUDY, (text + "\n").encode())
+
+    def _write(self, path: Path, data: bytes) -> None:
         try:
-            folder.write_file(path, sink.getvalue().to_pybytes())
+            folder.write_file(path, data)
         except OSError as error:
             said = error.strerror or error
             raise ExoError(f"{path}: {said}; what was finished is kept, and the same command goes on") from error
@@ -200,7 +202,7 @@ class Store:
             raise ExoError(f"{self.folder}: {table.num_rows} rows of {len(self._rows)}; expected every row once")
         sink = pa.BufferOutputStream()
         pq.write_table(table, sink, compression="zstd")
-        self._write(self.folder / TABLE, sink)
+        self._write(self.folder / TABLE, sink.getvalue().to_pybytes())
         with (self.folder / TABLE).open("rb+") as file:
             os.fsync(file.fileno())  # before the parts go
         for path in self._parts():
