@@ -62,6 +62,24 @@ def test_every_case_is_equal_bit_for_bit(name: str, archives: dict[str, Archive]
         assert moved, f"{case.id}: nothing changes"
 
 
+@pytest.mark.parametrize("name", built_in())
+def test_other_lengths_and_steps_are_equal_bit_for_bit(name: str, archives: dict[str, Archive]) -> None:
+    """Lengths that the scenario has not, and steps that are no whole number of the controllers' periods, or a part."""
+    scenario = load(name)
+    case = scenario.cases[0]
+    own = master.plan(scenario=scenario, case=case)
+    for steps, step in ((37, own.step), (23, 3.0 * own.step), (41, 1.5 * own.step), (74, 0.5 * own.step)):
+        assert_equal(both(scenario, case, archives, duration=steps * step, step=step))
+
+
+def test_a_run_beyond_its_scenario_is_equal_bit_for_bit(archives: dict[str, Archive]) -> None:
+    scenario = load("gain_study")
+    own = master.plan(scenario=scenario, case=scenario.cases[0])
+    runs = both(scenario, scenario.cases[0], archives, duration=own.duration + 37 * own.step)
+    assert_equal(runs)
+    assert runs[0].time[-1] > own.duration
+
+
 @pytest.mark.parametrize(("name", "case"), [("wall", "passive_bounded_5_0.5"), ("arm_contact", "passive_bounded")])
 @pytest.mark.parametrize("coupling", ["zero_delay", "one_sample_delay", "exchange_at_once"])
 def test_whole_runs_are_equal_in_every_coupling(
