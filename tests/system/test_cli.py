@@ -2,6 +2,7 @@
 
 import json
 import re
+import shlex
 import shutil
 from pathlib import Path
 from xml.etree import ElementTree as ET
@@ -134,6 +135,47 @@ def test_a_parameter_that_the_fmu_refuses_is_reported_with_the_fmu_s_own_words(
     assert answer.exit_code == 2
     assert "controller: fmi2" in answer.stderr
     assert "natural" in answer.stderr
+
+
+@pytest.mark.parametrize("engine", ["fmpy", "native"])
+def test_a_run_that_fails_names_scenario_case_component_and_time(
+    engine: str, short: Path, tmp_path: Path, fmu_dir: Path
+) -> None:
+    broken = '[[cases]]\nid = "torn"\nparameters = { "plant.tau_d" = 1e300 }\n'
+    short.write_text(SHORT.replace("[[metrics]]", broken + "[[metrics]]"), encoding="utf-8")
+    answer = run(short, tmp_path, fmu_dir, "--engine", engine)
+    assert answer.exit_code == 2
+    said = " ".join(answer.stderr.split())
+    assert said.startswith("exo: short: case torn: plant: fmi2DoStep returned fmi2Error: ")
+    assert "tau_d = 1e300 N" in said
+    assert said.endswith("(step at t = 0 s)")
+
+
+def test_a_run_in_which_nothing_is_judged_is_no_pass(short: Path, tmp_path: Path, fmu_dir: Path) -> None:
+    for more, why in (
+        (("--set", "controller.K=20"), "expectations in brackets hold without controller.K"),
+        ((), "no metric has an expectation, and no requirement is of this scenario"),
+    ):
+        if not more:
+            short.write_text(SHORT.replace("check = { at_least = 0.1 }\n", ""), encoding="utf-8")
+        answer = run(short, tmp_path, fmu_dir, *more)
+        assert answer.exit_code == 0
+        assert answer.output.startswith("info short: nothing judged, 1 info; 1 s simulated")
+        assert why in answer.output
+        assert json.loads((tmp_path / "short" / "metrics.json").read_text(encoding="utf-8"))["verdict"] == "info"
+
+
+def test_a_run_ends_with_the_command_that_makes_a_page_of_it(
+    short: Path, tmp_path: Path, fmu_dir: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The very command that is printed, also for a folder whose name a shell would take apart."""
+    monkeypatch.chdir(tmp_path)
+    for out in (Path("results"), Path("my results")):
+        last = run(short, out, fmu_dir).output.strip().splitlines()[-1]
+        command, page = re.fullmatch(r"`exo (.*)` makes a page of the results: (.*)", last).groups()
+        assert exo(*shlex.split(command)).exit_code == 0
+        assert Path(page) == out / "report.html"
+        assert Path(page).is_file()
 
 
 def test_an_unknown_scenario_exits_two(tmp_path: Path, fmu_dir: Path) -> None:

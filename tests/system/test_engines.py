@@ -62,6 +62,24 @@ def test_every_case_is_equal_bit_for_bit(name: str, archives: dict[str, Archive]
         assert moved, f"{case.id}: nothing changes"
 
 
+@pytest.mark.parametrize("name", built_in())
+def test_other_lengths_and_steps_are_equal_bit_for_bit(name: str, archives: dict[str, Archive]) -> None:
+    """Lengths that the scenario has not, and steps that are no whole number of the controllers' periods, or a part."""
+    scenario = load(name)
+    case = scenario.cases[0]
+    own = master.plan(scenario=scenario, case=case)
+    for steps, step in ((37, own.step), (23, 3.0 * own.step), (41, 1.5 * own.step), (74, 0.5 * own.step)):
+        assert_equal(both(scenario, case, archives, duration=steps * step, step=step))
+
+
+def test_a_run_beyond_its_scenario_is_equal_bit_for_bit(archives: dict[str, Archive]) -> None:
+    scenario = load("gain_study")
+    own = master.plan(scenario=scenario, case=scenario.cases[0])
+    runs = both(scenario, scenario.cases[0], archives, duration=own.duration + 37 * own.step)
+    assert_equal(runs)
+    assert runs[0].time[-1] > own.duration
+
+
 @pytest.mark.parametrize(("name", "case"), [("wall", "passive_bounded_5_0.5"), ("arm_contact", "passive_bounded")])
 @pytest.mark.parametrize("coupling", ["zero_delay", "one_sample_delay", "exchange_at_once"])
 def test_whole_runs_are_equal_in_every_coupling(
@@ -156,8 +174,11 @@ def test_a_run_by_the_clock_takes_its_time_and_finds_the_same(
 def test_an_overrun_is_a_step_that_ends_after_the_next_one_is_due() -> None:
     late, busy = np.array([0.0, 0.1, 0.9, 0.0]), np.array([0.2, 0.95, 0.05, 1.5])
     found = Deadlines.of(late, busy, 1.0)
-    assert found.overruns == 2
-    assert "4 steps of 1000 ms by the clock: 2 overruns" in found.sentence()
+    assert (found.overruns, found.overruns_at) == (2, (1.0, 3.0))
+    assert "4 steps of 1000 ms by the clock: 2 overruns (at t = 1, 3 s); began" in found.sentence()
+    quick = Deadlines.of(np.full(1000, 3.4e-7), np.full(1000, 2.0), 1.0)
+    assert (quick.overruns, len(quick.overruns_at)) == (1000, 100)
+    assert "1000 overruns (at t = 0, 1, 2, 3, 4, … s); began 0.34 µs late in the middle" in quick.sentence()
 
 
 def test_the_command_line_tells_the_deadlines(tmp_path: Path) -> None:

@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pandas as pd
 import pyarrow as pa
 import pytest
 
@@ -61,6 +62,16 @@ def test_a_row_that_fails_is_a_row_with_its_reason_and_the_next_one_is_unharmed(
     assert "K = -1 N.s/m, expected a value from" in found[FAILURE][1]
     assert math.isnan(found["release_delay"][1])
     assert found["release_delay"][0] == found["release_delay"][2] > 0.0
+
+
+def test_a_row_that_ends_in_the_middle_names_scenario_case_component_and_time(fmu_dir: Path) -> None:
+    for branch_at, t in ((None, 0), (19.0, 19)):
+        found = exo.batch("wall", {"plant.tau_d": [1e300]}, cases=[WALL], branch_at=branch_at, fmu_dir=fmu_dir)
+        said = found[FAILURE][0].as_py()
+        assert said.startswith(f"wall: case {WALL}: plant: fmi2DoStep returned fmi2Error")
+        assert said.endswith(f"(step at t = {t} s)")
+    with pytest.raises(FmuError, match=f"wall: case {WALL}: plant: fmi2DoStep returned"):
+        exo.simulate("wall", case=WALL, parameters={"plant.tau_d": 1e300}, fmu_dir=fmu_dir)
 
 
 def test_rows_set_forces_and_times_too(fmu_dir: Path) -> None:
@@ -136,6 +147,14 @@ def changed(K: float, *, at: float, engine: loop.Engine, fmu_dir: Path) -> float
             "branch_at = 19.0005 s: expected a multiple of the step 0.002 s, as 19 or 19.002 s",
         ),
         ({"controller.K": [1.0]}, math.nan, "branch_at = nan s: expected a time within the run"),
+        ({"controller.K": [1.0]}, "19", "branch_at = '19': expected a time in s"),
+        ({"controller.K": [1.0]}, True, "branch_at = True: expected a time in s"),
+        (None, None, "got None of type NoneType; expected columns by name"),
+        (np.ones((2, 2)), None, "of type ndarray; expected columns by name"),
+        (pd.DataFrame([[1.0, 2.0]], columns=["controller.K"] * 2), None, "expected each column once"),
+        (pd.DataFrame({"controller.K": pd.array([1, None], dtype="Int64")}), None, "true or false, got <NA>"),
+        ([{"controller.K": 1.0}, {"plant.M": 1.0}], None, "row 1 has no controller.K, row 0 has; expected each to"),
+        ([{"controller.K": 1.0}, {"controller.K": 1.0, "plant.M": 1.0}], None, "row 0 has no plant.M, row 1 has"),
     ],
 )
 def test_what_no_row_can_set_is_refused_before_anything_runs(
@@ -195,8 +214,49 @@ def test_a_branch_beyond_the_run_is_named(fmu_dir: Path) -> None:
         exo.batch("wall", {"controller.K": [1.0]}, cases=[WALL], branch_at=1000.0, fmu_dir=fmu_dir)
 
 
-def test_arrow_and_numpy_go_in(fmu_dir: Path) -> None:
-    given = pa.table({"controller.K": np.linspace(10.0, 30.0, 3), "controller.law": np.array([3, 4, 4])})
-    found = exo.batch("wall", given, cases=[WALL], fmu_dir=fmu_dir)
-    assert found[FAILURE].null_count == 3
-    assert found["controller.law"].to_pylist() == [3, 4, 4]
+K, LAW = [10.0, 20.0], [3, 4]
+TABLES: dict[str, Any] = {
+    "Arrow": pa.table({"controller.K": np.array(K), "controller.law": np.array(LAW)}),
+    "a batch of Arrow": pa.record_batch({"controller.K": pa.array(K), "controller.law": pa.array(LAW)}),
+    "columns of Arrow": {"controller.K": pa.chunked_array([K[:1], K[1:]]), "controller.law": pa.array(LAW)},
+    "columns of NumPy": {"controller.K": np.array(K), "controller.law": np.array(LAW, dtype=np.uint8)},
+    "pandas": pd.DataFrame({"controller.K": K, "controller.law": LAW}, index=[7, 3]),
+    "rows": [{"controller.K": one, "controller.law": law} for one, law in zip(K, LAW, strict=True)],
+    "what can be read once": {"controller.K": iter(K), "controller.law": iter(LAW)},
+}
+
+
+@pytest.fixture(scope="module")
+def plain(fmu_dir: Path) -> pa.Table:
+    """What lists give."""
+    return exo.batch("wall", {"controller.K": K, "controller.law": LAW}, cases=[WALL], fmu_dir=fmu_dir)
+
+
+@pytest.mark.parametrize("kind", TABLES)
+def test_a_table_of_any_kind_goes_in(kind: str, plain: pa.Table, fmu_dir: Path) -> None:
+    assert plain[FAILURE].null_count == 2
+    assert plain["release_delay"][0] != plain["release_delay"][1]
+    found = exo.batch("wall", TABLES[kind], cases=WALL, metrics="release_delay", fmu_dir=str(fmu_dir))
+    assert found.column_names == ["controller.K", "controller.law", "release_delay", FAILURE]
+    assert found.equals(plain.select(found.column_names))
+
+
+@pytest.mark.parametrize("rows", [{}, {"controller.K": []}, [], pd.DataFrame()])
+def test_no_row_is_no_run_and_no_error(rows: Any, fmu_dir: Path) -> None:
+    found = exo.batch("wall", rows, cases=[WALL], metrics=["tank"], fmu_dir=fmu_dir)
+    assert (found.num_rows, found.column_names[-2:]) == (0, ["tank", FAILURE])
+
+
+def test_a_scenario_from_tables_runs_in_a_batch(fmu_dir: Path) -> None:
+    tables = {
+        "base": "testbed_wall",
+        "title": "A light mass",
+        "about": "As the wall.",
+        "source": "here",
+        "duration": 2.0,
+        "cases": {"light": {"controller.M_n": 0.5}},
+        "metrics": {"energy_residual": {}},
+    }
+    found = exo.batch(tables, {"controller.K": [20.0]}, fmu_dir=fmu_dir)
+    assert found[FAILURE].null_count == 1
+    assert found["energy_residual"][0].as_py() < 1e-9

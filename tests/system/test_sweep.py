@@ -2,19 +2,25 @@
 
 import errno
 import json
+import re
+import shutil
 import tempfile
+import zipfile
 from collections import Counter
 from pathlib import Path
 from typing import Any
 
 import pyarrow.parquet as pq
 import pytest
+from matplotlib.figure import Figure
 
 from exo import folder, sweep
+from exo.commands.sweep import Line
 from exo.errors import ExoError
 from exo.runs import FAILURE
 from exo.sweep import store
 
+from commands import exo
 from sweeping import WALL
 
 
@@ -50,7 +56,8 @@ def test_a_sweep_that_is_done_is_not_run_again_and_pictures_may_change(
     again = sweep.sweep(study_file, out=tmp_path / "out", workers=1, fmu_dir=fmu_dir)
     assert again.table.equals(first.table)  # the seconds, too
     study_file.write_text(WALL.replace("30.0]", "31.0]"))
-    with pytest.raises(ExoError, match="another study: study, rows differ; expected another --out, or --fresh"):
+    was = r"study\.axes\.controller\.K\.values is \[10\.0, 20\.0, 31\.0\], was \[10\.0, 20\.0, 30\.0\]"
+    with pytest.raises(ExoError, match=rf"another study: {was}; expected another --out, or --fresh"):
         sweep.sweep(study_file, out=tmp_path / "out", workers=1, fmu_dir=fmu_dir)
     study_file.write_text(WALL)
     (first.folder / store.TABLE).write_bytes(b"half a table")
@@ -59,6 +66,81 @@ def test_a_sweep_that_is_done_is_not_run_again_and_pictures_may_change(
     study_file.write_text(WALL.replace("30.0]", "31.0]"))
     fresh = sweep.sweep(study_file, out=tmp_path / "out", workers=1, fmu_dir=fmu_dir, fresh=True)
     assert fresh.table["controller.K"].to_pylist()[-1] == 31.0
+
+
+def test_words_of_a_study_may_change_and_an_fmu_may_not(study_file: Path, fmu_dir: Path, tmp_path: Path) -> None:
+    """Between a kill and the command that goes on, too: its parts are looked at in the same way."""
+    first = sweep.sweep(study_file, out=tmp_path / "out", workers=1, fmu_dir=fmu_dir)
+    study_file.write_text(
+        WALL.replace("values =", 'label = "K [N·s/m]"\nvalues =').replace('"Time to', '"How long to', 1)
+    )
+    assert sweep.sweep(study_file, out=tmp_path / "out", workers=1, fmu_dir=fmu_dir).table.equals(first.table)
+    assert "How long to let go" in (first.folder / store.STUDY).read_text(encoding="utf-8")
+    built_again = tmp_path / "fmus"
+    built_again.mkdir()
+    for name in ("Testbed.fmu", "TestbedController.fmu"):
+        shutil.copy(fmu_dir / name, built_again)
+    with zipfile.ZipFile(built_again / "Testbed.fmu", "a") as archive:
+        archive.comment = b"built again"
+    with pytest.raises(ExoError, match=r"another study: Testbed\.fmu is another one; expected another --out, or"):
+        sweep.sweep(study_file, out=tmp_path / "out", workers=1, fmu_dir=built_again)
+
+
+def test_a_worker_that_finds_another_fmu_than_the_first_one_mixes_no_rows(
+    study_file: Path, fmu_dir: Path, tmp_path: Path
+) -> None:
+    """The archive is built again while the sweep runs; a worker that begins after that would open the new one."""
+    built = tmp_path / "fmus"
+    built.mkdir()
+    for name in ("Testbed.fmu", "TestbedController.fmu"):
+        shutil.copy(fmu_dir / name, built)
+
+    def build_again(progress: sweep.Progress) -> None:
+        assert progress.done == 0
+        with zipfile.ZipFile(built / "Testbed.fmu", "a") as archive:
+            archive.comment = b"built again"
+
+    with pytest.raises(ExoError, match=r"Testbed\.fmu: has changed since the sweep began; expected the same FMU"):
+        sweep.sweep(study_file, out=tmp_path / "out", workers=1, fmu_dir=built, tell=build_again)
+
+
+def test_a_table_that_lacks_rows_is_refused_and_none_is_run_for_it(
+    study_file: Path, fmu_dir: Path, tmp_path: Path
+) -> None:
+    done = sweep.sweep(study_file, out=tmp_path / "out", workers=1, fmu_dir=fmu_dir)
+    pq.write_table(done.table.slice(0, 4), done.folder / store.TABLE)
+    with pytest.raises(ExoError, match=r"runs\.parquet: has 4 rows, not rows 0 to 5 once each; expected another --out"):
+        sweep.sweep(study_file, out=tmp_path / "out", workers=1, fmu_dir=fmu_dir)
+    assert not list((done.folder / "parts").iterdir())
+
+
+def test_a_sweep_of_which_every_row_fails_is_no_success(study_file: Path, fmu_dir: Path, tmp_path: Path) -> None:
+    for values, failed, code in (("[-1.0, -2.0]", 4, 1), ("[-1.0, 20.0]", 2, 0)):
+        study_file.write_text(WALL[: WALL.index("[[figures]]")].replace("[10.0, 20.0, 30.0]", values))
+        answer = exo("sweep", study_file, "--out", tmp_path / str(code), "--fmu-dir", fmu_dir, "--workers", 1)
+        assert answer.exit_code == code, answer.output
+        said = " ".join(answer.stdout.split())
+        assert (
+            f"4 runs, {failed} of them failed, see column failure; the first: wall: case passive_bounded_5_0.5: "
+            in said
+        )
+        assert "K = -1 N.s/m, expected a value from" in said
+
+
+def test_workers_and_a_cluster_are_not_asked_for_together(study_file: Path, tmp_path: Path, fmu_dir: Path) -> None:
+    with pytest.raises(ExoError, match=r"--workers 2, --scheduler tcp://a:1: expected one of them"):
+        sweep.sweep(study_file, out=tmp_path, workers=2, scheduler="tcp://a:1", fmu_dir=fmu_dir)
+
+
+def test_a_log_gets_a_line_now_and_then_with_an_estimate() -> None:
+    """400 of 1000 rows are from before; the first worker needs 20 s to begin, then ten rows a second run."""
+    line = Line("study")
+    said = [line.of(sweep.Progress(400, 1000, 400, 0), 100.0)]
+    said += [line.of(sweep.Progress(400 + 10 * i, 1000, 400, i), 120.0 + i) for i in range(1, 61)]
+    assert [text for text in said if text] == [
+        "study: 500 of 1000 runs, 10 of them failed; about 50 s left",
+        "study: 800 of 1000 runs, 40 of them failed; about 20 s left",
+    ]
 
 
 def test_a_row_that_fails_is_a_row_with_its_reason(study_file: Path, fmu_dir: Path, tmp_path: Path) -> None:
@@ -88,6 +170,27 @@ def test_a_full_disk_is_named_and_what_is_finished_is_kept(
     done = sweep.sweep(study_file, out=tmp_path, workers=1, fmu_dir=fmu_dir, tell=told.append)
     assert told[0].kept_before > 0
     assert done.table[store.ROW].to_pylist() == list(range(6))
+
+
+@pytest.mark.parametrize("what", ["study.json", "map.png"])
+def test_a_disk_that_is_full_at_first_or_at_last_is_named_with_the_file(
+    what: str, study_file: Path, fmu_dir: Path, tmp_path: Path, monkeypatch: Any
+) -> None:
+    full = OSError(errno.ENOSPC, "No space left on device")
+
+    def write_file(path: Path, data: bytes) -> None:
+        if path.name == what:
+            raise full
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_bytes(data)
+
+    def savefig(*_: Any, **__: Any) -> None:
+        raise full
+
+    monkeypatch.setattr(folder, "write_file", write_file)
+    monkeypatch.setattr(Figure, "savefig", savefig)
+    with pytest.raises(ExoError, match=rf"{re.escape(what)}: .*No space left on device"):
+        sweep.sweep(study_file, out=tmp_path, workers=1, fmu_dir=fmu_dir)
 
 
 def test_the_table_opens_in_parquet_with_what_was_asked_for_beside_it(

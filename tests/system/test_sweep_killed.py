@@ -164,6 +164,28 @@ def test_a_script_needs_no_guard_around_its_sweep(how: str, study_file: Path, fm
     assert (answer.returncode, answer.stdout) == (0, "begins\n6 0\n"), answer.stderr
 
 
+def test_a_worker_that_is_killed_as_it_begins_is_begun_again(
+    study_file: Path, fmu_dir: Path, tmp_path: Path, monkeypatch: Any
+) -> None:
+    """As by a system that has too little memory for a moment. Nothing but the answer is printed, also at the end."""
+    (tmp_path / "sitecustomize.py").write_text(
+        "import os, signal, sys\n"
+        "if 'spawn_main' in ' '.join(sys.orig_argv):\n"
+        "    try:\n"
+        f"        os.rmdir({str(tmp_path / 'deadly')!r})\n"
+        "        os.kill(os.getpid(), signal.SIGKILL)\n"
+        "    except OSError:\n"
+        "        pass\n"
+    )
+    (tmp_path / "deadly").mkdir()
+    monkeypatch.setenv("PYTHONPATH", str(tmp_path))
+    process = command(study_file, tmp_path / "out", fmu_dir, "--workers", "2")
+    said, errors = process.communicate(timeout=120)
+    assert (process.returncode, errors) == (0, "")
+    assert "6 runs\n" in said
+    assert not (tmp_path / "deadly").exists()
+
+
 def test_processes_that_cannot_begin_are_one_sentence(
     study_file: Path, fmu_dir: Path, tmp_path: Path, monkeypatch: Any
 ) -> None:

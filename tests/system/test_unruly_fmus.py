@@ -12,8 +12,9 @@ from typing import Any
 import pytest
 
 import exo
-from exo import loop
+from exo import loop, master
 from exo.fmu import Archive, Instance
+from exo.plan import plan
 from exo.runs import FAILURE, Batch
 from exo.scenario import Scenario, parse
 
@@ -89,6 +90,24 @@ def test_messages_from_within_the_loop_arrive_whatever_their_bytes(
     assert error is not None
     assert "line 199 \N{REPLACEMENT CHARACTER} of t = 0.05" in error
     assert "Exception ignored" not in capfd.readouterr().err
+
+
+@pytest.mark.parametrize("engine", loop.ENGINES)
+def test_a_step_that_takes_too_long_is_told_by_its_time_with_those_that_it_delays(
+    one: Scenario, engine: loop.Engine, tmp_path: Path
+) -> None:
+    """Ten steps of 10 ms, of which the sixth takes 50 ms: it and the four after it end when the next one is due."""
+    plain(tmp_path, "-DSLOW=0.05").write(tmp_path)
+    of = plan(scenario=one, case=one.cases[0])
+    with Archive(tmp_path / "broken.fmu") as archive:
+        found = master.simulate(plan=of, archives={"broken.fmu": archive}, engine=engine, real_time=True).deadlines
+    assert found is not None
+    # What else is late is the machine's doing.
+    assert {round(t, 9) for t in found.overruns_at} >= {0.05, 0.06, 0.07, 0.08, 0.09}
+    assert found.overruns == len(found.overruns_at) >= 5
+    assert found.busy_max >= 0.05
+    assert found.late_max >= 0.04
+    assert "overruns (at t = 0.0" in found.sentence()
 
 
 def test_threads_load_libraries_and_the_working_directory_stays(fmu_dir: Path, monkeypatch: Any) -> None:

@@ -1,6 +1,7 @@
 """What can go wrong, each as one sentence that names the thing, its value and what was expected."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 from difflib import get_close_matches
 
 
@@ -14,6 +15,15 @@ class ScenarioError(ExoError):
 
 class FmuError(ExoError):
     """A missing archive, an unknown variable, or a call that an FMU refused."""
+
+
+@contextmanager
+def in_case(scenario: str, case: str) -> Iterator[None]:
+    """What an FMU refuses in here is told with the scenario and the case that ran."""
+    try:
+        yield
+    except FmuError as error:
+        raise FmuError(f"{scenario}: case {case}: {error}") from error
 
 
 def close_matches(name: str, known: Iterable[str]) -> str:

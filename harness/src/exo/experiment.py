@@ -11,7 +11,7 @@ from typing import Any
 
 from exo import derived, metrics, preflight, requirements, trial
 from exo import overrides as settings
-from exo.errors import ScenarioError
+from exo.errors import ScenarioError, in_case
 from exo.fmu import Archive, Instance
 from exo.loop import Engine
 from exo.master import Plan, plan, simulate
@@ -19,7 +19,7 @@ from exo.paper import lookup
 from exo.recording import Recording
 from exo.requirements import Requirements
 from exo.scenario import Case, Scenario, Value
-from exo.verdict import Result, beside_the_paper, judge
+from exo.verdict import Result, Verdict, beside_the_paper, judge
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -45,6 +45,12 @@ class Experiment:
     def passed(self) -> bool:
         """Whether no verdict failed."""
         return all(result.verdict != "fail" for result in self.results)
+
+    @property
+    def verdict(self) -> Verdict:
+        """Of the whole: pass where something was judged and nothing failed, info where nothing was judged."""
+        found = {result.verdict for result in self.results}
+        return "fail" if "fail" in found else "pass" if "pass" in found else "info"
 
     def description(self) -> dict[str, Any]:
         """Everything that says how the numbers came about, for metrics.json."""
@@ -115,10 +121,9 @@ def run(
         recordings = {}
         for case in scenario.cases:
             on_case(case)
-            recordings[case.id] = derived.added(
-                simulate(plan=plans[case.id], archives=archives, engine=engine, real_time=real_time),
-                scenario.derived,
-            )
+            with in_case(scenario.id, case.id):
+                run = simulate(plan=plans[case.id], archives=archives, engine=engine, real_time=real_time)
+            recordings[case.id] = derived.added(run, scenario.derived)
         fmus = {name: _facts(archive) for name, archive in archives.items()}
         unwired = preflight.unwired(plans, archives)
         notes = preflight.timing(plans, archives)

@@ -7,6 +7,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+#: Of how many overruns it is kept, and shown, when they were.
+KEPT, SHOWN = 100, 5
 #: How long before its time a step is waited for without sleep (s).
 SPIN_S = 1e-3
 
@@ -50,6 +52,8 @@ class Deadlines:
     steps: int
     step: float
     overruns: int
+    #: When the first ones of these were due to begin, in the run's time (s).
+    overruns_at: tuple[float, ...]
     #: Of how late steps began (s).
     late_median: float
     late_99: float
@@ -67,17 +71,28 @@ class Deadlines:
             for name, column in (("late", late), ("busy", busy))
             for what, share in (("median", 50.0), ("99", 99.0), ("max", 100.0))
         }
-        return cls(steps=len(late), step=step, overruns=int(np.count_nonzero(late + busy > step)), **figures)
+        over = np.flatnonzero(late + busy > step)
+        at = tuple((over[:KEPT] * step).tolist())
+        return cls(steps=len(late), step=step, overruns=len(over), overruns_at=at, **figures)
 
     def sentence(self) -> str:
         """The figures as one line."""
+        shown = ", ".join(f"{t:.6g}" for t in self.overruns_at[:SHOWN])
+        more = ", …" if self.overruns > SHOWN else ""
+        which = f" (at t = {shown}{more} s)" if shown else ""
         return (
-            f"{self.steps} steps of {1e3 * self.step:g} ms by the clock: {self.overruns} overruns; began "
-            f"{1e6 * self.late_median:.0f} µs late in the middle, {1e6 * self.late_99:.0f} µs 99 % of them, "
-            f"{1e6 * self.late_max:.0f} µs the latest; took {1e6 * self.busy_median:.0f} µs in the middle, "
-            f"{1e6 * self.busy_max:.0f} µs the longest"
+            f"{self.steps} steps of {1e3 * self.step:g} ms by the clock: {self.overruns} overruns{which}; began "
+            f"{_micro(self.late_median)} µs late in the middle, {_micro(self.late_99)} µs 99 % of them, "
+            f"{_micro(self.late_max)} µs the latest; took {_micro(self.busy_median)} µs in the middle, "
+            f"{_micro(self.busy_max)} µs the longest"
         )
 
     def as_json(self) -> dict[str, Any]:
         """For metrics.json, times in seconds."""
         return {key: getattr(self, key) for key in self.__dataclass_fields__}
+
+
+def _micro(seconds: float) -> str:
+    """Microseconds, with two digits where there are few."""
+    micro = 1e6 * seconds
+    return f"{micro:.0f}" if micro >= 10.0 else f"{micro:.2g}"

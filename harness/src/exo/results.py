@@ -8,6 +8,7 @@ from typing import Any
 import jsonschema
 
 from exo import earlier, folder, junit, manifest, plots, recording, scenes
+from exo.errors import ExoError
 from exo.experiment import Experiment
 from exo.kept import EVERYTHING, Kept
 
@@ -25,7 +26,7 @@ def metrics_document(experiment: Experiment) -> dict[str, Any]:
     document = {
         "schema": SCHEMA_ID,
         "scenario": experiment.scenario.id,
-        "verdict": "pass" if experiment.passed else "fail",
+        "verdict": experiment.verdict,
         "metrics": {result.id: result.as_json() for result in experiment.results},
         "run": experiment.description(),
     }
@@ -36,7 +37,21 @@ def metrics_document(experiment: Experiment) -> dict[str, Any]:
 
 
 def write(*, experiment: Experiment, out: Path, kept: Kept = EVERYTHING) -> Path:
-    """Writes `<out>/<scenario>/` as a whole, in the place of what an earlier run has left, and returns it."""
+    """Writes `<out>/<scenario>/` as a whole, in the place of what an earlier run has left, and returns it.
+
+    ExoError, if it cannot be written.
+    """
+    target = out / experiment.scenario.id
+    try:
+        _write(experiment, out=out, kept=kept)
+    except OSError as error:
+        # Arrow and matplotlib name no file.
+        said = error.strerror or error
+        raise ExoError(f"{target}: cannot be written: {said}; what was there before stays") from error
+    return target
+
+
+def _write(experiment: Experiment, *, out: Path, kept: Kept) -> None:
     target = out / experiment.scenario.id
     document = json.dumps(metrics_document(experiment), indent=2, ensure_ascii=False)
     with folder.replaced(target) as fresh:
@@ -52,4 +67,3 @@ def write(*, experiment: Experiment, out: Path, kept: Kept = EVERYTHING) -> Path
         scenes.keep(experiment=experiment, fresh=fresh)
         (fresh / junit.NAME).write_bytes(junit.text([junit.suite(experiment)]))
         manifest.write(experiment=experiment, folder=fresh)
-    return target

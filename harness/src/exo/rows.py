@@ -24,12 +24,12 @@ TIMES = ("duration", "step")
 Row = Mapping[str, Value]
 
 
-def rows_of(parameters: Mapping[str, Sequence[Value]] | pa.Table) -> list[dict[str, Value]]:
-    """A table by columns as rows. ScenarioError, if the columns are not of one length, or hold what no row can set."""
-    if isinstance(parameters, pa.Table) and len(set(parameters.column_names)) < parameters.num_columns:
-        raise ScenarioError(f"parameters: expected each column once, got {', '.join(parameters.column_names)}")
-    given = parameters.to_pydict() if isinstance(parameters, pa.Table) else dict(parameters)
-    columns = {key: _column(key, values) for key, values in given.items()}
+def rows_of(parameters: Any) -> list[dict[str, Value]]:
+    """A table as rows: columns by name, of Python, Arrow or pandas; or a list of rows, each a dictionary.
+
+    ScenarioError, if it is none, if its columns are not of one length, or if they hold what no row can set.
+    """
+    columns = {key: _column(key, values) for key, values in _columns(parameters).items()}
     lengths = {key: len(values) for key, values in columns.items()}
     if len(set(lengths.values())) > 1:
         told = ", ".join(f"{key} has {length}" for key, length in lengths.items())
@@ -37,10 +37,47 @@ def rows_of(parameters: Mapping[str, Sequence[Value]] | pa.Table) -> list[dict[s
     return [dict(zip(columns, values, strict=True)) for values in zip(*columns.values(), strict=True)]
 
 
+def _columns(table: Any) -> dict[Any, Any]:
+    """The columns by name."""
+    if isinstance(table, list | tuple) and all(isinstance(row, Mapping) for row in table):
+        return _turned(table)
+    match table:
+        case Mapping():
+            names = list(table)
+        case pa.Table() | pa.RecordBatch():
+            names = list(table.schema.names)
+        case object(columns=columns, iloc=_):  # of pandas, which is not imported for this
+            names = list(columns)
+        case _:
+            raise ScenarioError(
+                f"parameters: got {_short(table)} of type {type(table).__name__}; expected columns by name, as "
+                '{"controller.K": [10.0, 20.0]}, a table of Arrow or pandas, or a list of rows'
+            )
+    if len(set(names)) < len(names):
+        raise ScenarioError(f"parameters: expected each column once, got {', '.join(map(str, names))}")
+    return {name: table[name] for name in names}
+
+
+def _turned(rows: Sequence[Mapping[Any, Any]]) -> dict[Any, Any]:
+    """Columns of rows that all set the same keys."""
+    for i, row in enumerate(rows):
+        for key in [*rows[0], *row]:
+            if key not in row or key not in rows[0]:
+                with_it, without = (i, 0) if key in row else (0, i)
+                raise ScenarioError(f"parameters: row {without} has no {key}, row {with_it} has; expected each to")
+    return {key: [row[key] for row in rows] for key in (rows[0] if rows else ())}
+
+
+def _short(value: object) -> str:
+    return " ".join(str(value).split())[:40]
+
+
 def _column(key: object, values: Any) -> list[Value]:
     if not isinstance(key, str) or isinstance(values, str | bytes) or not isinstance(values, Iterable):
-        raise ScenarioError(f"parameters: {key}: expected a name and a list of values, got {str(values)[:40]}")
-    # What NumPy holds is made what TOML and Python have.
+        raise ScenarioError(f"parameters: {key}: expected a name and a list of values, got {_short(values)}")
+    # What Arrow and NumPy hold is made what TOML and Python have.
+    if isinstance(values, pa.Array | pa.ChunkedArray):
+        values = values.to_pylist()
     plain = [value.item() if isinstance(value, np.generic) else value for value in values]
     if wrong := unlike(plain):
         raise ScenarioError(f"{key}: {wrong}")
@@ -52,8 +89,8 @@ def unlike(values: Sequence[object]) -> str:
     kinds = {_kind(value): value for value in values}
     for kind, value in kinds.items():
         if not kind:
-            return f"expected a number of 64 bits, a text, or true or false, got {str(value)[:40]}"
-    told = ", ".join(f"the {kind} {str(value)[:40]}" for kind, value in kinds.items())
+            return f"expected a number of 64 bits, a text, or true or false, got {_short(value)}"
+    told = ", ".join(f"the {kind} {_short(value)}" for kind, value in kinds.items())
     return "" if len(kinds) < 2 else f"expected values of one kind, got {told}"
 
 

@@ -21,17 +21,19 @@ from collections.abc import Iterable, Mapping, Sequence
 from contextlib import ExitStack
 from dataclasses import dataclass
 from functools import partial
+from numbers import Real
+from os import PathLike
 from pathlib import Path
 from types import TracebackType
-from typing import Any, Self
+from typing import TYPE_CHECKING, Any, Self
 
 import pyarrow as pa
 
 from exo import loop as loops
 from exo import metrics as measures
 from exo import preflight, selection, trial
-from exo import scenario as scenarios
-from exo.errors import ExoError, ScenarioError, close_matches
+from exo.api.simulating import read_scenario
+from exo.errors import ExoError, ScenarioError, close_matches, in_case
 from exo.fmu import Archive, find_fmu_dir
 from exo.loop import Engine
 from exo.plan import plan
@@ -39,25 +41,29 @@ from exo.repeated import Look, Repeated
 from exo.rows import Row, check_each_once, check_key, planned, rows_of
 from exo.scenario import Scenario, Value
 
+if TYPE_CHECKING:
+    import pandas as pd
+
 #: Column of a result table: why a row has no numbers; null where it has.
 FAILURE = "failure"
 
 
 def batch(
-    scenario: Scenario | str,
-    parameters: Mapping[str, Sequence[Value]] | pa.Table,
+    scenario: Scenario | str | PathLike[str] | Mapping[str, Any],
+    parameters: "Mapping[str, Iterable[Value]] | Sequence[Row] | pa.Table | pa.RecordBatch | pd.DataFrame",
     *,
     cases: Iterable[str] = (),
     metrics: Iterable[str] = (),
     branch_at: float | None = None,
     engine: Engine | None = None,
-    fmu_dir: Path | None = None,
+    fmu_dir: str | PathLike[str] | None = None,
 ) -> pa.Table:
     """Runs the scenario once for each row; returns the rows with a column for each metric and `failure`.
 
-    `scenario` is one, an id or a file; `cases` are ids or patterns, all cases without them; `metrics` are ids of
-    metrics and ratios, all without them. `branch_at` (s) as above. `engine` is native where it is installed. A row that
-    fails is a row with its reason in `failure`, and NaN for numbers.
+    `scenario` is what `exo.read_scenario` takes. `parameters` are columns by name (lists, arrays of NumPy or Arrow), a
+    table of Arrow or pandas, or a list of rows. `cases` are ids or patterns, all cases without them; `metrics` are ids
+    of metrics and ratios, all without them. `branch_at` (s) as above. `engine` is native where it is installed.
+    A row that fails is a row with its reason in `failure`, and NaN for numbers.
     ScenarioError and FmuError name what is wrong with all rows: a key, a scenario, an archive.
     """
     rows = rows_of(parameters)
@@ -89,20 +95,20 @@ class Batch:
 
     def __init__(
         self,
-        scenario: Scenario | str,
+        scenario: Scenario | str | PathLike[str] | Mapping[str, Any],
         *,
         cases: Iterable[str] = (),
         metrics: Iterable[str] = (),
         branch_at: float | None = None,
         engine: Engine | None = None,
-        fmu_dir: Path | None = None,
+        fmu_dir: str | PathLike[str] | None = None,
     ) -> None:
         """As `batch`. ScenarioError or FmuError, if something is wrong that no row could mend."""
-        loaded = scenarios.load(scenario) if isinstance(scenario, str) else scenario
-        self.scenario = _measured(selection.narrowed(loaded, cases=cases), tuple(metrics))
+        loaded = scenario if isinstance(scenario, Scenario) else read_scenario(scenario)
+        self.scenario = _measured(selection.narrowed(loaded, cases=_listed(cases)), _listed(metrics))
         self.engine: Engine = loops.named(engine) if engine else loops.fastest()
-        self._branch_at = branch_at
-        self._folder = find_fmu_dir(fmu_dir)
+        self._branch_at = _instant(branch_at)
+        self._folder = find_fmu_dir(None if fmu_dir is None else Path(fmu_dir))
         self._stack = ExitStack()
         self._archives: dict[str, Archive] = {}
         self._runs: dict[str, Repeated] = {}
@@ -143,7 +149,9 @@ class Batch:
             recordings: dict[str, Look] = {}
             for case in self.scenario.cases:
                 runs = self._runs[case.id]
-                recordings[case.id] = runs.look(planned(row, runs.plan), self.scenario.derived)
+                made = planned(row, runs.plan)
+                with in_case(self.scenario.id, case.id):
+                    recordings[case.id] = runs.look(made, self.scenario.derived)
             return Outcome(self._numbers(recordings))
         except ExoError as error:
             return Outcome({}, " ".join(str(error).split()))
@@ -169,6 +177,17 @@ class Batch:
             upper, lower = (found[name] for name in ratio.of)
             found[ratio.id] = upper / lower if lower else float("nan")
         return {self._shown(name): value for name, value in found.items()}
+
+
+def _instant(branch_at: Any) -> float | None:
+    if isinstance(branch_at, bool | str) or not isinstance(branch_at, Real | None):
+        raise ScenarioError(f"branch_at = {branch_at!r:.40}: expected a time in s")
+    return None if branch_at is None else float(branch_at)
+
+
+def _listed(names: Iterable[str]) -> tuple[str, ...]:
+    """One name is a list of it, not of its letters."""
+    return (names,) if isinstance(names, str) else tuple(names)
 
 
 def _measured(scenario: Scenario, ids: tuple[str, ...]) -> Scenario:

@@ -2,7 +2,7 @@
 
 import json
 import math
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Mapping
 from importlib.resources.abc import Traversable
 from pathlib import Path
 from typing import Annotated, Any, Literal, Self
@@ -18,7 +18,7 @@ from pydantic import (
     model_validator,
 )
 
-from exo import expansion
+from exo import expansion, refused
 from exo.errors import ScenarioError, close_matches
 from exo.naming import expand_names, expand_values, expand_wires, file_name, line, text
 from exo.plain import plain_values
@@ -54,8 +54,6 @@ DERIVED = "derived"
 RESERVED = ("junit.xml", "report.html", "tune")
 #: Of one case: 1e8 steps of 1 ms are a day; all columns of a run are kept in memory.
 MAX_STEPS = 1e8
-#: Problems of one file that are told, and letters of a value in them.
-TOLD, QUOTED = 20, 200
 
 
 class Data(BaseModel):
@@ -353,47 +351,11 @@ def _from_data(data: dict[str, Any], *, origin: str, folder: Traversable | None)
         # By way of JSON, where strict validation takes arrays for tuples.
         return Scenario.model_validate_json(json.dumps(data, default=str))
     except ValidationError as error:
-        raise ScenarioError("\n".join(_sentences(error, origin, data))) from error
+        raise ScenarioError("\n".join(refused.sentences(error, origin, data))) from error
     except RecursionError:
         raise ScenarioError(
             f"{origin}: nested too deeply; expected tables and arrays as in docs/scenarios.md"
         ) from None
-
-
-def _sentences(error: ValidationError, origin: str, data: Any) -> list[str]:
-    lines = []
-    for problem in error.errors(include_url=False):
-        key = ".".join(_steps(problem["loc"], data))
-        where = f"{origin}: {key}" if key else origin
-        match problem["type"]:
-            case "extra_forbidden":
-                lines.append(f"{where}: unknown key, with value {_quoted(problem)}; expected one of the known keys")
-            case "missing":
-                lines.append(f"{where}: missing; expected a value")
-            case "value_error":
-                lines.append(f"{where}: {problem['ctx']['error']}")
-            case "too_short":
-                lines.append(f"{where}: got none; expected at least {problem['ctx']['min_length']}")
-            case _:
-                lines.append(f"{where}: got {_quoted(problem)}; expected: {problem['msg']}")
-    more = [f"{origin}: and {len(lines) - TOLD} more problems"] if len(lines) > TOLD else []
-    return lines[:TOLD] + more
-
-
-def _quoted(problem: Any) -> str:
-    text = repr(problem["input"])
-    return text if len(text) <= QUOTED else f"{text[:QUOTED]}…"
-
-
-def _steps(place: tuple[int | str, ...], data: Any) -> Iterator[str]:
-    """The way to a value, with ids in place of numbers."""
-    for step in place:
-        try:
-            data = data[step]
-        except (KeyError, IndexError, TypeError):
-            data = None
-        named = isinstance(step, int) and isinstance(data, dict) and "id" in data
-        yield str(data["id"] if named else step)
 
 
 def built_in() -> dict[str, Traversable]:

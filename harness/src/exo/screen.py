@@ -3,6 +3,7 @@
 import io
 import math
 import os
+import shlex
 import signal
 import sys
 import threading
@@ -135,13 +136,15 @@ def print_run(
 ) -> None:
     """Verdict and counts, then the numbers whose verdict is to be shown, and where the pictures lie."""
     counts = {v: sum(r.verdict == v for r in done.results) for v in COLORS}
-    verdict = "pass" if done.passed else "fail"
+    verdict = done.verdict
     simulated = sum(plan.duration for plan in done.plans.values())
     computing = sum(run.wall_time for run in done.recordings.values())
     console.print(
-        f"[{COLORS[verdict]}]{verdict}[/] {done.scenario.id}: {counts['pass']} pass, {counts['fail']} fail, "
-        f"{counts['info']} info; {simulated:.0f} s simulated in {computing:.2f} s"
+        f"[{COLORS[verdict]}]{verdict}[/] {done.scenario.id}: {_counted(counts)}; "
+        f"{simulated:.6g} s simulated in {computing:.2f} s"
     )
+    if not any(result.kind != "none" for result in done.results):
+        console.print("  no metric has an expectation, and no requirement is of this scenario", markup=False)
     for case, run in done.recordings.items():
         if run.deadlines is not None:
             console.print(f"  {case}: {run.deadlines.sentence()}", markup=False)
@@ -166,6 +169,19 @@ def print_run(
         console.print(f"  {note}", markup=False)
     pictures = [f"{figure.id}.png" for figure in done.scenario.figures]
     console.print(f"  results: {folder}{': ' if pictures else ''}{', '.join(pictures)}", markup=False)
+
+
+def _counted(counts: dict[str, int]) -> str:
+    """How many numbers have which verdict; that nothing has been judged is no pass."""
+    if not counts["pass"] + counts["fail"]:
+        return f"nothing judged, {counts['info']} info"
+    return ", ".join(f"{counts[one]} {one}" for one in ("pass", "fail", "info"))
+
+
+def print_page(out: Path) -> None:
+    """How a page is made of the results in `out`."""
+    where = "" if out == Path("results") else f" --out {shlex.quote(str(out))}"
+    console.print(f"`exo report{where}` makes a page of the results: {out / 'report.html'}", markup=False)
 
 
 def print_differences(beyond: list[Difference]) -> None:

@@ -1,6 +1,6 @@
 /* The smallest FMI 2.0 co-simulation FMU: input u (reference 0), output y = u (reference 1). Written against the
  * standard's text, not against this project's exporter. Each macro breaks one thing:
- * CRASH, SIGNAL, NO_RESET, DISCARD, CHATTER, HANG, EXIT, FORK, LOUD, FLOOD, WARNS, ANY_GUID, NO_GUID, VERSION, EXTRA, HOME, INCOMPLETE, UNDEFINED;
+ * SLOW, CRASH, SIGNAL, NO_RESET, DISCARD, CHATTER, HANG, EXIT, FORK, LOUD, FLOOD, WARNS, ANY_GUID, NO_GUID, VERSION, EXTRA, HOME, INCOMPLETE, UNDEFINED;
  * MARK names a file that is written when the library is loaded. */
 #include <signal.h>
 #include <stdio.h>
@@ -102,6 +102,9 @@ API int fmi2DoStep(Component c, double t, double h, int no_set) {
   const Callbacks *callbacks = ((Instance *)c)->callbacks;
   for (int i = 0; i < CHATTER; i++)
     callbacks->logger(callbacks->environment, "plain", WARNING, "\xff", "line %d \xfe of t = %g", i, t);
+#endif
+#ifdef SLOW
+  if (t > SLOW - 1e-6 && t < SLOW + 1e-6) usleep(50000);
 #endif
 #ifdef DISCARD
   if (t >= DISCARD) return 2;

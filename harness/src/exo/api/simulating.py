@@ -1,7 +1,7 @@
 """One run: of a system that was coupled in Python, or of a scenario's case."""
 
 from collections.abc import Mapping
-from contextlib import ExitStack
+from contextlib import AbstractContextManager, ExitStack, nullcontext
 from dataclasses import replace
 from os import PathLike
 from pathlib import Path
@@ -13,7 +13,7 @@ from exo.api.fmu import Fmu
 from exo.api.run import Run
 from exo.api.signals import Signal, fed
 from exo.api.system import System, archives_of, plan_of, positive
-from exo.errors import ScenarioError, close_matches
+from exo.errors import ScenarioError, close_matches, in_case
 from exo.fmu import Archive, find_fmu_dir
 from exo.loop import Engine
 from exo.master import simulate as one
@@ -80,8 +80,12 @@ def simulate(
         if isinstance(what, System):
             of, archives, name = _of_system(what, case=case, duration=duration, step=step)
             signals: tuple[str, ...] = ()
+            located: AbstractContextManager[None] = nullcontext()
         else:
-            of, archives, name, signals = _of_scenario(what, case=case, duration=duration, step=step, fmu_dir=fmu_dir)
+            scenario = what if isinstance(what, Scenario) else read_scenario(what)
+            of, archives, name = _of_scenario(scenario, case=case, duration=duration, step=step, fmu_dir=fmu_dir)
+            signals = scenario.derived
+            located = in_case(scenario.id, name)
         of = _set(fed(of, inputs or {}), parameters or {})
         _known_components(of, inputs or {})
         preflight.one_run(plan=of, archives=archives, owner=name)
@@ -89,7 +93,9 @@ def simulate(
         for archive in archives.values():
             stack.enter_context(archive)
             trial.check(archive)
-        recorded = derived.added(one(plan=of, archives=archives, engine=chosen, real_time=real_time), signals)
+        with located:
+            run = one(plan=of, archives=archives, engine=chosen, real_time=real_time)
+        recorded = derived.added(run, signals)
     return Run.of(recorded, name=name)
 
 
@@ -105,16 +111,15 @@ def _of_system(
 
 
 def _of_scenario(
-    what: Any, *, case: str | None, duration: float | None, step: float | None, fmu_dir: Any
-) -> tuple[Plan, dict[str, Archive], str, tuple[str, ...]]:
-    scenario = what if isinstance(what, Scenario) else read_scenario(what)
+    scenario: Scenario, *, case: str | None, duration: float | None, step: float | None, fmu_dir: Any
+) -> tuple[Plan, dict[str, Archive], str]:
     found = _case(scenario, case)
     of = plan(scenario=scenario, case=found)
     if duration is not None:
         of = replace(of, duration=positive("duration", duration))
     folder = find_fmu_dir(None if fmu_dir is None else Path(fmu_dir))
     archives = {name: Archive(folder / name) for name in dict.fromkeys(of.components.values())}
-    return _timed(of, step=step), archives, found.id, scenario.derived
+    return _timed(of, step=step), archives, found.id
 
 
 def _case(scenario: Scenario, name: str | None) -> Case:

@@ -110,6 +110,7 @@ def run(
                 unwired=everything or own_file,
             ),
         )
+        screen.print_page(out)
     raise typer.Exit(0 if passed else 1)
 
 

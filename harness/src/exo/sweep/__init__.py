@@ -53,7 +53,12 @@ class Swept:
     @property
     def failed(self) -> int:
         """Rows without numbers."""
-        return int(self.table.num_rows - self.table[FAILURE].null_count)
+        return len(self.reasons)
+
+    @property
+    def reasons(self) -> list[str]:
+        """Why rows have no numbers, in the rows' order."""
+        return [str(reason) for reason in self.table[FAILURE].drop_null().to_pylist()]
 
 
 def sweep(
@@ -79,6 +84,10 @@ def sweep(
     names = sorted({part.archive for part in scenario.components.values()})
     if workers is not None and workers < 1:
         raise ExoError(f"--workers {workers}: expected 1 or more")
+    if workers is not None and scheduler is not None:
+        raise ExoError(
+            f"--workers {workers}, --scheduler {scheduler}: expected one of them: a cluster has its own workers"
+        )
     # Opened here once, so that what is wrong with all rows is told before a worker begins.
     with Batch(
         scenario, cases=study.cases, metrics=study.metrics, branch_at=study.branch_at, engine=engine, fmu_dir=folder
@@ -103,6 +112,7 @@ def sweep(
             branch_at=study.branch_at,
             engine=engine,
             fmu_dir=folder.resolve() if scheduler is None else None,
+            checksums=checksums,
         )
         chunks: Iterator[Kept]
         if scheduler is not None:

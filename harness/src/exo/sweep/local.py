@@ -19,7 +19,9 @@ from exo.sweep.chunks import Queue
 from exo.sweep.store import Done
 from exo.sweep.work import ENDED, Chunk, Kept, Task, run_chunk
 
-#: How long a worker that was told to end may take (s).
+#: How often workers may fail to begin before a sweep gives up.
+BEGINNINGS = 3
+#: How long a worker that was killed may take to be gone (s).
 GONE_S = 2.0
 MAIN = "__main__"
 
@@ -52,22 +54,26 @@ def run(task: Task, queue: Queue, *, workers: int) -> Iterator[Kept]:
 
 
 def _pool(workers: int) -> ProcessPoolExecutor:
-    """A pool whose workers have begun."""
-    # A forked process would have this one's threads' locks.
-    pool = ProcessPoolExecutor(workers, mp_context=multiprocessing.get_context("spawn"), initializer=_begin)
-    try:
-        # What is sent first makes the processes.
-        with _without_main():
-            begun = pool.submit(processors)
-        begun.result()
-    except (BrokenProcessPool, OSError) as error:
-        pool.shutdown(wait=False, cancel_futures=True)
-        told = " ".join(str(error).split())
-        raise ExoError(f"--workers {workers}: no process begins: {told}; expected fewer, or more memory") from error
-    except BaseException:
-        _end(pool)
-        raise
-    return pool
+    """A pool whose workers have begun. ExoError, if they do not, however often."""
+    told = ""
+    for _ in range(BEGINNINGS):
+        # A forked process would have this one's threads' locks.
+        pool = ProcessPoolExecutor(workers, mp_context=multiprocessing.get_context("spawn"), initializer=_begin)
+        try:
+            # What is sent first makes the processes.
+            with _without_main():
+                begun = pool.submit(processors)
+            begun.result()
+        except (BrokenProcessPool, OSError) as error:
+            # One may have been killed as it began. The pool's own thread has ended when this returns.
+            pool.shutdown(wait=True, cancel_futures=True)
+            told = " ".join(str(error).split())
+        except BaseException:
+            _end(pool)
+            raise
+        else:
+            return pool
+    raise ExoError(f"--workers {workers}: no process begins: {told}; expected fewer, or more memory")
 
 
 @contextmanager
@@ -129,7 +135,8 @@ def _end(pool: ProcessPoolExecutor) -> None:
     processes: dict[int, Any] = dict(getattr(pool, "_processes", None) or {})
     pool.shutdown(wait=False, cancel_futures=True)
     for process in processes.values():
-        process.terminate()
-    # Their folders can be removed once they are gone; an FMU that blocks the signal is not waited for.
+        # Not SIGTERM, which an FMU may block: what is open is removed below.
+        process.kill()
+    # Their folders can be removed once they are gone.
     for process in processes.values():
         process.join(GONE_S)

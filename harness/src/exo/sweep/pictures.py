@@ -32,7 +32,7 @@ Array = NDArray[np.float64]
 
 
 def draw(figure: Figure, study: Study, table: pa.Table, folder: Path) -> Path:
-    """Draws one figure into `<folder>/<id>.png`. ExoError, if no row has what it draws."""
+    """Draws one figure into `<folder>/<id>.png`. ExoError, if no row has what it draws, or it cannot be written."""
     path = folder / f"{figure.id}.png"
     for name, value in figure.where.items():
         table = table.filter(pa.array(_numbers(table, name) == value))
@@ -62,8 +62,12 @@ def draw(figure: Figure, study: Study, table: pa.Table, folder: Path) -> Path:
         for name, scale in (("x", axes.set_xscale), ("y", axes.set_yscale)):
             if name in figure.log:
                 scale("log")
-        drawing.savefig(path)
-        pyplot.close(drawing)
+        try:
+            drawing.savefig(path)
+        except OSError as error:
+            raise ExoError(f"{path}: cannot be written: {error.strerror or error}") from error
+        finally:
+            pyplot.close(drawing)
     return path
 
 

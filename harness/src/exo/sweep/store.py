@@ -29,6 +29,8 @@ from exo.scenario import Scenario, Value
 from exo.sweep.study import Study
 
 STUDY, TABLE, PARTS = "study.json", "runs.parquet", "parts"
+#: What of a study is only read or drawn; and letters of a value in a message.
+TEXTS, QUOTED = ("title", "about", "label", "figures"), 60
 #: Column of a row's number, and of the time that it took (s).
 ROW, SECONDS = "row", "seconds"
 
@@ -101,24 +103,19 @@ class Store:
             if self.done():
                 raise ExoError(f"{self.folder}: has parts and no {STUDY}; expected another --out, or --fresh")
             versions = {name: metadata.version(name) for name in ("exo", "numpy", "scipy")}
-            text = json.dumps({**self._asked, "versions": versions}, indent=2, ensure_ascii=False)
-            folder.write_file(path, (text + "\n").encode())
+            self._describe({**self._asked, "versions": versions})
             return
         try:
             there = json.loads(path.read_text(encoding="utf-8"))
         except (OSError, ValueError) as error:
             raise ExoError(f"{path}: {error}; expected another --out, or --fresh") from error
-        changed = [key for key, value in self._asked.items() if there.get(key) != json.loads(json.dumps(value))]
-        # Pictures may be drawn anew.
-        if changed == ["study"] and _without_figures(there) == _without_figures(self._asked):
-            text = json.dumps({**there, **self._asked}, indent=2, ensure_ascii=False)
-            folder.write_file(path, (text + "\n").encode())
+        asked = json.loads(json.dumps(self._asked))
+        if isinstance(there, dict) and _numbers_of(there) == _numbers_of(asked):
+            if there != {**there, **asked}:  # pictures and texts may be others
+                self._describe({**there, **asked})
             return
-        if changed:
-            told = ", ".join(changed)
-            raise ExoError(
-                f"{self.folder}: holds the results of another study: {told} differ; expected another --out, or --fresh"
-            )
+        what = _difference(_numbers_of(there), _numbers_of(asked), "")
+        raise ExoError(f"{self.folder}: holds the results of another study: {what}; expected another --out, or --fresh")
 
     def _drop_broken(self) -> None:
         """Removes what a machine that was switched off has left half written: those rows run again."""
@@ -138,9 +135,15 @@ class Store:
         """Numbers of the rows that have run."""
         if (self.folder / TABLE).exists():
             try:
-                return set(pq.read_table(self.folder / TABLE, columns=[ROW])[ROW].to_pylist())
+                rows = pq.read_table(self.folder / TABLE, columns=[ROW])[ROW].to_pylist()
             except (OSError, pa.ArrowException, KeyError) as error:
                 raise ExoError(f"{self.folder / TABLE}: cannot be read; expected another --out, or --fresh") from error
+            if sorted(rows) != list(range(len(self._rows))):
+                raise ExoError(
+                    f"{self.folder / TABLE}: has {len(rows)} rows, not rows 0 to {len(self._rows) - 1} once each; "
+                    "expected another --out, or --fresh"
+                )
+            return set(rows)
         found: set[int] = set()
         for path in self._parts():
             found.update(pq.read_table(path, columns=[ROW])[ROW].to_pylist())
@@ -163,11 +166,15 @@ class Store:
         sink = pa.BufferOutputStream()
         pq.write_table(pa.table(columns), sink)
         first = min(one.row for one in done)
-        self._write(self.folder / PARTS / f"{first:08}.parquet", sink)
+        self._write(self.folder / PARTS / f"{first:08}.parquet", sink.getvalue().to_pybytes())
 
-    def _write(self, path: Path, sink: pa.BufferOutputStream) -> None:
+    def _describe(self, asked: dict[str, Any]) -> None:
+        text = json.dumps(asked, indent=2, ensure_ascii=False)
+        self._write(self.folder / STUDY, (text + "\n").encode())
+
+    def _write(self, path: Path, data: bytes) -> None:
         try:
-            folder.write_file(path, sink.getvalue().to_pybytes())
+            folder.write_file(path, data)
         except OSError as error:
             said = error.strerror or error
             raise ExoError(f"{path}: {said}; what was finished is kept, and the same command goes on") from error
@@ -195,7 +202,7 @@ class Store:
             raise ExoError(f"{self.folder}: {table.num_rows} rows of {len(self._rows)}; expected every row once")
         sink = pa.BufferOutputStream()
         pq.write_table(table, sink, compression="zstd")
-        self._write(self.folder / TABLE, sink)
+        self._write(self.folder / TABLE, sink.getvalue().to_pybytes())
         with (self.folder / TABLE).open("rb+") as file:
             os.fsync(file.fileno())  # before the parts go
         for path in self._parts():
@@ -203,6 +210,32 @@ class Store:
         return table
 
 
-def _without_figures(asked: dict[str, Any]) -> dict[str, Any]:
-    study = {key: value for key, value in asked["study"].items() if key != "figures"}
-    return dict(json.loads(json.dumps(study)))
+def _numbers_of(asked: Any) -> dict[str, Any]:
+    """What the rows' numbers come from: all but what is only read or drawn."""
+    asked = asked if isinstance(asked, dict) else {}
+    study = asked.get("study")
+    study = {key: value for key, value in study.items() if key not in TEXTS} if isinstance(study, dict) else {}
+    if isinstance(study.get("axes"), dict):
+        study["axes"] = {
+            name: {key: value for key, value in axis.items() if key not in TEXTS} if isinstance(axis, dict) else axis
+            for name, axis in study["axes"].items()
+        }
+    return {"study": study, **{key: asked.get(key) for key in ("scenario", "fmus", "runs", "rows")}}
+
+
+def _difference(there: Any, asked: Any, at: str) -> str:
+    """The first difference, by its key."""
+    if isinstance(there, dict) and isinstance(asked, dict):
+        for key in [*asked, *there]:
+            if there.get(key) != asked.get(key):
+                return _difference(there.get(key), asked.get(key), f"{at}.{key}" if at else key)
+    if at == "rows":
+        return "other samples of the same seed, of another version of scipy"
+    if at.startswith("fmus."):
+        return f"{at.removeprefix('fmus.')} is another one"
+    return f"{at} is {_short(asked)}, was {_short(there)}"
+
+
+def _short(value: Any) -> str:
+    text = json.dumps(value, ensure_ascii=False)
+    return text if len(text) <= QUOTED else f"{text[:QUOTED]}…"

@@ -44,8 +44,10 @@ import numpy as np
 from pydantic import Field, ValidationError, model_validator
 from scipy.stats import norm, qmc
 
+from exo import refused
 from exo import scenario as scenarios
 from exo.errors import ExoError, close_matches
+from exo.plain import plain_values
 from exo.rows import unlike
 from exo.scenario import Data, Identifier, Line, Positive, Scenario, Value
 
@@ -84,11 +86,27 @@ class Axis(Data):
             raise ValueError(f"low {self.low}: expected a number above 0 on a log scale")
         if normal and (self.mean is None or self.deviation is None):
             raise ValueError("expected mean and deviation")
+        for key in ("count", "scale"):
+            if not ranged and key in self.model_fields_set:
+                raise ValueError(f"{key} {getattr(self, key)}: belongs to low and high; expected none")
+        if not math.isfinite(self._widest()):
+            raise ValueError("what lies between its ends is no number of 64 bits; expected ends that are nearer")
         return self
+
+    def _widest(self) -> float:
+        """The largest number that `at` computes with."""
+        if self.mean is not None and self.deviation is not None:
+            return float(norm.ppf(SMALLEST, scale=self.deviation)) - abs(self.mean)
+        if self.low is None or self.high is None:
+            return 0.0
+        return self.high / self.low if self.scale == "log" else self.high - self.low
 
     def points(self, key: str) -> list[Value]:
         """The axis' values in a grid."""
         if self.values:
+            for value in self.values:
+                if self.values.count(value) > 1:
+                    raise ExoError(f"axes.{key}: values: {value} stands twice; expected each point of a grid once")
             return list(self.values)
         if self.low is None or self.high is None or self.count is None:
             raise ExoError(f"axes.{key}: a grid needs values, or low, high and count")
@@ -104,8 +122,11 @@ class Axis(Data):
         assert self.low is not None
         assert self.high is not None
         if self.scale == "log":
-            return float(self.low * (self.high / self.low) ** share)
-        return float(self.low + share * (self.high - self.low))
+            found = float(self.low * (self.high / self.low) ** share)
+        else:
+            found = float(self.low + share * (self.high - self.low))
+        # Rounding may lead beyond an end, where an FMU's range may end.
+        return min(max(found, self.low), self.high)
 
 
 class Sampling(Data):
@@ -183,6 +204,18 @@ class Study(Data):
                 raise ValueError(f"parameters.{key}: is an axis, too; expected one of them")
         return self
 
+    @model_validator(mode="after")
+    def _draws_each_picture_once(self) -> Self:
+        there: dict[str, str] = {}
+        for figure in self.figures:
+            name = figure.id.casefold()
+            if name in there:
+                raise ValueError(
+                    f"figures {there[name]} and {figure.id} would be one file; expected another id for one of them"
+                )
+            there[name] = figure.id
+        return self
+
     @property
     def size(self) -> int:
         """Number of runs."""
@@ -241,19 +274,26 @@ def load(name: str | Path) -> tuple[Study, Scenario]:
     except UnicodeDecodeError as error:
         raise ExoError(f"{path}: byte {error.start} is no UTF-8; expected a text file") from error
     try:
-        study = Study.model_validate_json(json.dumps(tomllib.loads(text), default=str))
+        data = plain_values(tomllib.loads(text), where=f"{path}: study")
+        _check_axes(data.get("axes"), where=f"{path}: axes")
+        study = Study.model_validate_json(json.dumps(data))
     except tomllib.TOMLDecodeError as error:
         raise ExoError(f"{path}: {error}; expected TOML") from error
     except ValidationError as error:
-        lines = []
-        for problem in error.errors(include_url=False):
-            key = ".".join(str(step) for step in problem["loc"])
-            said = str(problem["ctx"]["error"]) if problem["type"] == "value_error" else problem["msg"]
-            lines.append(f"{path}: {key or 'study'}: {said}")
-        raise ExoError("\n".join(lines[:20])) from error
+        raise ExoError("\n".join(refused.sentences(error, str(path), data))) from error
     beside = path.parent / study.scenario
     name = str(beside) if study.scenario.endswith(".toml") else study.scenario
     return study, scenarios.load(name)
+
+
+def _check_axes(axes: Any, *, where: str) -> None:
+    """ExoError, if the name of an axis stands without quotes: to TOML its dots are tables in tables."""
+    for first, axis in axes.items() if isinstance(axes, dict) else ():
+        name, inner = first, axis
+        while isinstance(inner, dict) and inner and all(isinstance(one, dict) for one in inner.values()):
+            name, inner = f"{name}.{next(iter(inner))}", next(iter(inner.values()))
+        if name != first:
+            raise ExoError(f'{where}.{name}: expected the name in quotes, as [axes."{name}"]')
 
 
 def check_figures(study: Study, columns: list[str]) -> None:

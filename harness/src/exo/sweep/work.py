@@ -1,11 +1,13 @@
 """What a process does with rows: it opens the scenario once, then runs chunks of them."""
 
+import hashlib
 import threading
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from time import perf_counter
 
+from exo.errors import ExoError
 from exo.loop import Engine
 from exo.runs import Batch
 from exo.scenario import Scenario, Value
@@ -30,6 +32,8 @@ class Task:
     engine: Engine | None
     #: Where the archives lie; None: they come with each chunk.
     fmu_dir: Path | None
+    #: SHA-256 of the archives by name, as they were when the sweep began.
+    checksums: Mapping[str, str]
 
 
 #: The scenario that this thread has open.
@@ -51,6 +55,7 @@ def _opened(task: Task) -> Batch:
     if getattr(_OPEN, "id", None) == task.id:
         return _OPEN.runs  # type: ignore[no-any-return]
     close()
+    _check_archives(task)
     runs = Batch(
         task.scenario,
         cases=task.cases,
@@ -61,6 +66,22 @@ def _opened(task: Task) -> Batch:
     )
     _OPEN.runs, _OPEN.id = runs.__enter__(), task.id
     return runs
+
+
+def _check_archives(task: Task) -> None:
+    """ExoError, if an archive is another one than at the beginning: a worker that begins later would mix their rows."""
+    if task.fmu_dir is None:
+        return
+    for name, checksum in task.checksums.items():
+        path = task.fmu_dir / name
+        try:
+            there = hashlib.sha256(path.read_bytes()).hexdigest()
+        except OSError as error:
+            raise ExoError(f"{path}: {error.strerror or error}; expected the FMU with which the sweep began") from error
+        if there != checksum:
+            raise ExoError(
+                f"{path}: has changed since the sweep began; expected the same FMU, or --fresh with this one"
+            )
 
 
 def close() -> None:
