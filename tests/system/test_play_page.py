@@ -264,8 +264,8 @@ def test_a_screen_reader_hears_what_happens_and_not_every_number(opened: Callabl
     until(page, f"state.time > {until(page, 'true')['time']} + 1.0")
     assert page.evaluate("heard.includes('SPANtime')")
     live = (
-        "heard.filter((name) => [...document.querySelectorAll('[role=status], [role=alert], [aria-live], output')].some("
-        "(one) => one.id !== 'status' && one.ariaLive !== 'off' && one.nodeName + one.id === name))"
+        "heard.filter((name) => [...document.querySelectorAll('[role=status], [role=alert], [aria-live], output')]"
+        ".some((one) => one.id !== 'status' && one.ariaLive !== 'off' && one.nodeName + one.id === name))"
     )
     assert page.evaluate(live) == []
     assert page.evaluate("document.querySelectorAll('output').length") > 4
