@@ -210,6 +210,25 @@ def test_an_fmu_that_refuses_its_parameters_is_a_sentence(fmu_dir: Path) -> None
         live.begun()
 
 
+def test_a_message_of_the_hand_acts_as_a_whole_or_not_at_all(fmu_dir: Path, tmp_path: Path) -> None:
+    with played("testbed", fmu_dir) as live:
+        live.begun()
+        answer = messages.take(live, '{"hand": {"target": [0.1], "stiffness": 300, "push": "hard"}}', out=tmp_path)
+        assert answer == {"error": "push = 'hard': expected 1 numbers (N)"}
+        state = later(live, 0.05)
+    assert (state.target, state.stiffness) == (None, 200.0)
+
+
+def test_a_new_run_that_begins_paused_shows_nothing_of_the_one_before(fmu_dir: Path) -> None:
+    with played("testbed", fmu_dir) as live:
+        live.hand(push=[10.0])
+        wait(live, lambda state: state.word == "touches")
+        live.pause(True)
+        live.again()
+        state = wait(live, lambda state: state.run == 2 and state.status == "paused")
+    assert (state.time, state.word, state.values["plant.q"], state.push) == (0.0, "free", 0.0, (0.0,))
+
+
 def test_nothing_is_saved_before_something_is_played(fmu_dir: Path) -> None:
     live = played("testbed", fmu_dir)
     with pytest.raises(ExoError, match="nothing has been played yet"):
@@ -252,7 +271,9 @@ def test_a_hand_goes_nowhere_where_there_is_no_place(target: object) -> None:
         ('{"hand": {"foot": 1}}', "some of target, push, stiffness"),
         ('{"hand": {"push": [1000]}}', "expected numbers from -10 to 10 N"),
         ('{"hand": {"stiffness": 1e9}}', "expected 5 to 1000"),
-        ('{"save": "../out"}', "expected letters, digits"),
+        (f'{{"hand": {{"stiffness": 1{"0" * 400}}}}}', "expected 5 to 1000"),
+        ('{"set": {"name": "\\ud800", "to": 1}}', "no knob"),
+        ('{"save": "../out"}', "name '../out': expected letters, digits"),
         ('{"save": "CON"}', "Windows has a device"),
         ('{"save": 5}', "expected a name"),
         ('{"save": "early"}', "nothing has been played yet"),

@@ -73,7 +73,7 @@ def opened(browser: Any, fmu_dir: Path, tmp_path: Path) -> Iterator[Callable[...
         end()
     # Of the software WebGL, not of the page.
     assert [text for text in complaints if "GPU stall due to ReadPixels" not in text] == []
-    assert [url for url in requests if not url.startswith(("data:", "blob:"))] == origins
+    assert [url for url in requests if not url.startswith(("data:", "blob:", "about:"))] == origins
 
 
 def until(page: Any, test: str, *, within: float = 90.0) -> Any:
@@ -177,6 +177,99 @@ def test_the_arm_follows_the_mouse_in_three_dimensions(opened: Callable[..., Any
     page.mouse.up()
     page.check("#switch-vacuum")
     until(page, "state.switches.vacuum && state.target === null")
+
+
+def test_a_slider_that_is_held_stays_where_it_is_held_and_acts_when_it_is_let_go(opened: Callable[..., Any]) -> None:
+    page = opened("testbed")
+    box = page.locator("#knob-mass").bounding_box()
+    middle = box["y"] + box["height"] / 2
+    page.mouse.move(box["x"] + 0.3 * box["width"], middle)
+    page.mouse.down()
+    page.mouse.move(box["x"] + 0.6 * box["width"], middle, steps=4)
+    held = page.input_value("#knob-mass")
+    assert float(held) == pytest.approx(18.4, abs=1.0)
+    until(page, f"state.time > {until(page, 'true')['time']} + 1.2")
+    assert page.input_value("#knob-mass") == held
+    page.mouse.up()
+    assert until(page, "state.run === 2")["settings"]["mass"] == pytest.approx(float(held), abs=0.06)
+
+
+def test_a_page_shows_what_another_one_has_set(opened: Callable[..., Any]) -> None:
+    page = opened("testbed")
+    page.focus("#knob-law")
+    other = page.context.browser.new_page()
+    other.goto(page.url)
+    until(other, "state.time > 0")
+    other.select_option("#knob-law", "passive_applied")
+    until(page, "document.getElementById('knob-law').value === 'passive_applied' && state.settings.law !== 'standard'")
+    other.fill("#forces input", "-2.5")
+    until(page, "state.force[0] === -2.5 && document.querySelector('#forces input').value === '-2.5'")
+    assert page.inner_text("#forces output") == "−2.5"
+    other.close()
+    until(page, "document.querySelector('#forces input').value === '0'")
+
+
+def test_what_is_refused_is_said_at_the_top_of_the_window(opened: Callable[..., Any]) -> None:
+    page = opened("testbed", width=390)
+    page.evaluate("document.getElementById('knob-K').max = 100")
+    page.locator("#charts").scroll_into_view_if_needed()
+    page.fill("#knob-K", "90")
+    page.get_by_text("K = 90: expected a number from 1 to 60 N·s/m").wait_for()
+    assert page.locator("#refused").bounding_box()["y"] < 60
+    assert page.inner_text("#saved") == ""
+
+
+def test_a_page_too_many_says_so_and_comes_in_when_another_is_closed(
+    opened: Callable[..., Any], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(server, "TABS", 1)
+    page = opened("testbed")
+    late = page.context.browser.new_page()
+    late.goto(page.url)
+    late.get_by_text("1 pages are open, as many as there may be. Close one of them.").wait_for()
+    page.goto("about:blank")
+    until(late, "state.time > 0")
+    assert not late.is_visible("#lost")
+    late.close()
+
+
+def test_a_mass_that_has_left_the_drawing_says_where_it_is(opened: Callable[..., Any]) -> None:
+    page = opened("testbed")
+    page.fill("#forces input", "-10")
+    until(page, "state.values['plant.q'] < -12")
+    said = page.locator(".er-place").text_content()
+    assert -60 < float(said.removeprefix("mass at ").removesuffix("\u00a0m").replace("−", "-")) < -11
+    assert "−10" in page.locator(".er-tick + text").all_text_contents()
+
+
+def test_lines_of_a_chart_have_the_colours_of_the_drawing_and_differ_without_them(opened: Callable[..., Any]) -> None:
+    page = opened("testbed")
+    page.fill("#forces input", "3")
+    until(page, "state.force[0] === 3")
+    mark = "getComputedStyle(document.querySelectorAll('#charts .u-legend')[{0}].querySelectorAll('.u-marker')[{1}])"
+    colour, style = mark + ".borderTopColor", mark + ".borderTopStyle"
+    assert page.evaluate(colour.format(0, 0)) == "rgb(0, 114, 178)"
+    drawn = "getComputedStyle(document.querySelector('.er-mass')).fill"
+    assert page.evaluate(drawn) == "rgb(0, 114, 178)"
+    assert [page.evaluate(style.format(1, i)) for i in (0, 1)] == ["solid", "dashed"]
+
+
+def test_a_screen_reader_hears_what_happens_and_not_every_number(opened: Callable[..., Any]) -> None:
+    page = opened("testbed")
+    # Where nothing happens, no region that is read aloud changes while the run goes on: but for whether it keeps up.
+    page.evaluate(
+        "window.heard = []; new MutationObserver((seen) => heard.push(...seen.map((one) => one.target.nodeName + "
+        "(one.target.id ?? '')))).observe(document.body, { subtree: true, childList: true, characterData: true })"
+    )
+    until(page, f"state.time > {until(page, 'true')['time']} + 1.0")
+    assert page.evaluate("heard.includes('SPANtime')")
+    live = (
+        "heard.filter((name) => [...document.querySelectorAll('[role=status], [role=alert], [aria-live], output')]"
+        ".some((one) => one.id !== 'status' && one.ariaLive !== 'off' && one.nodeName + one.id === name))"
+    )
+    assert page.evaluate(live) == []
+    assert page.evaluate("document.querySelectorAll('output').length") > 4
+    assert page.evaluate("document.getElementById('tank').ariaValueText") == page.inner_text("#tank-text")
 
 
 @pytest.mark.parametrize("width", [390, 800, 1400])

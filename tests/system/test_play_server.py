@@ -1,13 +1,10 @@
 """The socket of `exo play`: who may come in, what becomes of garbage and floods, and that no page holds up another."""
 
 import json
-import os
-import signal
 import socket
-import subprocess
-import sys
 import threading
 from collections.abc import Callable, Iterator
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from time import monotonic, sleep
@@ -184,11 +181,29 @@ def test_a_page_that_closes_while_it_grips_lets_go(served: Served) -> None:
         state_where(other, lambda state: state["target"] is None and state["force"] == [0.0])
 
 
+def test_a_page_that_grips_lets_go_at_its_end_whatever_another_page_sets_meanwhile(served: Served) -> None:
+    with served.tab() as other:
+        with served.tab() as tab:
+            tab.send('{"hand": {"target": [0.1]}}')
+            state_where(tab, lambda state: state["target"] == [0.1])
+            other.send('{"hand": {"stiffness": 300, "push": [1.5]}}')
+            state_where(other, lambda state: state["stiffness"] == 300 and state["push"] == [1.5])
+        after = state_where(other, lambda state: state["target"] is None)
+        # What the other page does stays.
+        assert after["push"] == [1.5]
+    with served.tab() as tab:
+        assert state_where(tab, lambda state: state["push"] == [0.0])
+
+
 def test_garbage_is_answered_and_the_page_goes_on(served: Served) -> None:
     with served.tab() as tab:
-        for text in ("", "{", "null", "[[", '{"set": null}', "😀", '{"hand": {"target": "x"}}'):
+        huge = f'{{"hand": {{"stiffness": 1{"0" * 400}}}}}'
+        for text in ("", "{", "null", "[[", '{"set": null}', "😀", '{"hand": {"target": "x"}}', huge):
             tab.send(text)
             assert "expected" in answer(tab, "error")
+        # Half of a surrogate pair.
+        tab.send('{"set": {"name": "\\ud800", "to": 1}}')
+        assert answer(tab, "error").startswith("no knob \ud800")
         tab.send(b"\x00\xff")
         assert answer(tab, "error") == "a message of bytes; expected text"
         assert answer(tab, "state")["status"] in GOES_ON
@@ -259,40 +274,34 @@ def test_an_fmu_that_fails_is_a_sentence_on_the_page(served: Served, monkeypatch
 def test_too_many_pages_are_told_to_come_later(served: Served) -> None:
     tabs = [served.tab() for _ in range(server.TABS)]
     try:
-        with pytest.raises(InvalidStatus):
-            served.tab()
+        with served.tab() as late, pytest.raises(ConnectionClosed) as closed:
+            late.recv(timeout=5)
+        assert closed.value.rcvd is not None
+        assert closed.value.rcvd.code == server.BUSY
+        assert closed.value.rcvd.reason == "16 pages are open, as many as there may be. Close one of them."
     finally:
         for tab in tabs:
             tab.close()
     end = monotonic() + 5.0
     while monotonic() < end:
-        try:
-            with served.tab() as tab:
-                return
-        except InvalidStatus:
-            sleep(0.05)
+        with suppress(ConnectionClosed), served.tab() as tab:
+            assert answer(tab, "state")
+            return
+        sleep(0.05)
     pytest.fail("no page gets in after the others have gone")
+
+
+def test_a_page_hears_of_a_run_that_stands_still(served: Served) -> None:
+    with served.tab() as tab:
+        tab.send('{"pause": true}')
+        state_where(tab, lambda state: state["paused"])
+        # The same again, within two seconds: a page that hears nothing says so.
+        assert answer(tab, "state", within=2.0)["paused"]
+        assert answer(tab, "state", within=2.0)["paused"]
+        tab.send('{"pause": false}')
+        state_where(tab, lambda state: not state["paused"])
 
 
 def test_a_port_that_is_taken_is_a_sentence(served: Served) -> None:
     with pytest.raises(ExoError, match=f"--port {served.port}: is taken; expected a free port, or 0 for any"):
         server.bind(served.port)
-
-
-@pytest.mark.skipif(sys.platform == "win32", reason="Windows sends no SIGINT to one process")
-def test_ctrl_c_ends_the_command(fmu_dir: Path, tmp_path: Path) -> None:
-    command = [sys.executable, "-m", "exo.cli", "play", "--no-browser", "--fmu-dir", str(fmu_dir)]
-    with subprocess.Popen(
-        command, cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env={**os.environ},
-        # A job in the background has SIGINT ignored, and its children, too.
-        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),  # noqa: PLW1509  see test_sweep_killed.py
-    ) as process:  # fmt: skip
-        assert process.stdout is not None
-        assert "http://127.0.0.1:" in process.stdout.readline()
-        process.stdout.readline()
-        sleep(0.3)
-        process.send_signal(signal.SIGINT)
-        # The interpreter takes half a second of processor time to end, which may be long while others compute.
-        _, said = process.communicate(timeout=120)
-    assert process.returncode == 130
-    assert "Traceback" not in said

@@ -12,7 +12,7 @@ import pytest
 from exo import experiment, loop, report, results
 from exo.experiment import Experiment
 from exo.report import packed
-from exo.report.thin import CLOSE, Window, thin
+from exo.report.thin import CLOSE, Window, farther, thin
 from exo.scenario import Scenario, built_in, load
 from exo.selection import narrowed
 
@@ -272,6 +272,27 @@ def test_a_thinned_signal_keeps_its_peaks_and_its_line() -> None:
     assert kept[-1] == len(time) - 1
     drawn = np.interp(time, time[kept], values[kept])
     assert np.abs(drawn - values).max() <= CLOSE * np.ptp(values)
+
+
+@pytest.mark.parametrize("lively", ["a_sine_of_660_periods", "noise"])
+def test_a_run_that_is_too_lively_ranges_over_what_it_ranges_over_at_every_time(lively: str) -> None:
+    # Ten minutes at 1 kHz.
+    time = np.arange(600_000) * 1e-3
+    values = np.sin(7.0 * time) if lively != "noise" else np.random.default_rng(1).uniform(-1.0, 1.0, len(time))
+    kept = thin(time, values)
+    assert len(kept) <= 4100
+    drawn = np.interp(time, time[kept], values[kept]).reshape(-1, 2000)
+    seconds = values.reshape(-1, 2000)
+    # In each two seconds, of a range of 2.
+    assert np.abs(drawn.max(axis=1) - seconds.max(axis=1)).max() < 0.15
+    assert np.abs(drawn.min(axis=1) - seconds.min(axis=1)).max() < 0.15
+    assert farther(time, values, kept) == pytest.approx(np.abs(drawn.ravel() - values).max())
+
+
+def test_a_line_that_is_close_enough_is_not_called_off() -> None:
+    time = np.arange(60_000) * 1e-3
+    values = np.sin(time)
+    assert farther(time, values, thin(time, values)) == 0.0
 
 
 def test_a_window_into_a_signal_is_as_fine_as_the_whole() -> None:

@@ -28,8 +28,10 @@ ORDER = ("fail", "info", "pass")
 #: Findings of one rule that `exo references` prints.
 SHOWN = 5
 COLORS = {"pass": "green", "fail": "bold red", "info": "blue"}
-#: The shell's codes of a command that Ctrl-C, that a pipe's other end and that SIGTERM have ended.
-INTERRUPTED, BROKEN_PIPE, TERMINATED = 130, 141, 143
+#: The shell's codes of a command that Ctrl-C and that a pipe's other end have ended; of a signal, this and its number.
+INTERRUPTED, BROKEN_PIPE, SIGNALLED = 130, 141, 128
+#: What a terminal that is closed and what a system that shuts down sends. Windows has no SIGHUP.
+ENDS = tuple(getattr(signal, name) for name in ("SIGHUP", "SIGTERM") if hasattr(signal, name))
 
 console = Console(highlight=False, soft_wrap=True)
 errors = Console(stderr=True, highlight=False, soft_wrap=True)
@@ -46,7 +48,9 @@ def take_any_letter() -> None:
 def sentences() -> Iterator[None]:
     """Turns errors that are meant for the user into one message and exit code 2."""
     main = threading.current_thread() is threading.main_thread()
-    before = signal.signal(signal.SIGTERM, _terminated) if main else None
+    # What is ignored, as by nohup, stays ignored.
+    heard = [one for one in ENDS if main and signal.getsignal(one) is not signal.SIG_IGN]
+    before = {one: signal.signal(one, _terminated) for one in heard}
     try:
         yield
     except ExoError as error:
@@ -78,13 +82,13 @@ def sentences() -> Iterator[None]:
         )
         raise typer.Exit(2) from error
     finally:
-        if main:
-            signal.signal(signal.SIGTERM, before)
+        for one, handler in before.items():
+            signal.signal(one, handler)
 
 
-def _terminated(_signal: int, _frame: object) -> None:
-    """SIGTERM ends the process as an exception does: what is open is closed, folders are removed."""
-    raise SystemExit(TERMINATED)
+def _terminated(number: int, _frame: object) -> None:
+    """A signal ends the process as an exception does: what is open is closed, folders are removed."""
+    raise SystemExit(SIGNALLED + number)
 
 
 def table(*headers: str) -> Table:

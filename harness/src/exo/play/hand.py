@@ -53,7 +53,8 @@ class Hand:
         if isinstance(stiffness, bool) or not isinstance(stiffness, int | float):
             raise ScenarioError(f"stiffness = {stiffness!r:.40}: expected a number")
         if not SOFTEST <= stiffness <= STIFFEST:
-            raise ScenarioError(f"stiffness = {stiffness:g} N/m: expected {SOFTEST:g} to {STIFFEST:g}")
+            # An int of JSON may be larger than any float.
+            raise ScenarioError(f"stiffness = {stiffness!r:.40} N/m: expected {SOFTEST:g} to {STIFFEST:g}")
         self.stiffness = float(stiffness)
 
     def force(self, position: Sequence[float], velocity: Sequence[float], *, time: float = 0.0) -> list[float]:

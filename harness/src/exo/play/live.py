@@ -3,6 +3,7 @@
 import threading
 from collections.abc import Mapping
 from contextlib import ExitStack
+from copy import copy
 from dataclasses import dataclass
 from pathlib import Path
 from time import perf_counter, sleep
@@ -59,6 +60,8 @@ class State:
     stiffness: float
     #: Where the hand wants the handle (m, an axis each); None while it does not grip.
     target: tuple[float, ...] | None
+    #: What it pushes with besides (N, an axis each).
+    push: tuple[float, ...]
     paused: bool
     #: The hand repeats an earlier run by itself.
     repeats: bool
@@ -80,6 +83,7 @@ class State:
             "switches": dict(self.switches),
             "stiffness": self.stiffness,
             "target": self.target,
+            "push": self.push,
             "paused": self.paused,
             "repeats": self.repeats,
         }
@@ -175,12 +179,15 @@ class Live:
     def hand(self, *, target: object = ..., push: object = ..., stiffness: object = ...) -> None:
         """Where the hand wants the handle (m), what it pushes besides (N), how stiff it is (N/m)."""
         with self._lock:
+            # All of it or nothing.
+            hand = copy(self._hand)
             if stiffness is not ...:
-                self._hand.stiffen(stiffness)
+                hand.stiffen(stiffness)
             if target is not ...:
-                self._hand.aim(target)
+                hand.aim(target)
             if push is not ...:
-                self._hand.press(push)
+                hand.press(push)
+            self._hand = hand
 
     def pause(self, on: object) -> None:
         """Holds the clock, or lets it go on."""
@@ -266,6 +273,8 @@ class Live:
         contact = Contact()
         origin, slow_until, speed, done = perf_counter(), 0.0, 1.0, 0
         second = (perf_counter(), 0)
+        # A run that begins while the clock is held shows where it stands, and nothing of the run before.
+        self._tell(run=run, status="paused" if self._paused else "running", values=self._values(coupled, 0))
         while done < steps and not self._again and not self._stopping:
             if self._paused:
                 self._tell(run=run, status="paused")
@@ -331,7 +340,8 @@ class Live:
         contact: Contact | None = more.get("contact")
         with self._lock:
             settings, switches = dict(self._settings), dict(self._switches)
-            stiffness, target, repeats = self._hand.stiffness, self._hand.target, bool(self._hand.script)
+            stiffness, target, push = self._hand.stiffness, self._hand.target, tuple(self._hand.push)
+            repeats = bool(self._hand.script)
         self._state = State(
             run=run,
             time=more.get("time", old.time if old else 0.0),
@@ -347,6 +357,7 @@ class Live:
             switches=switches,
             stiffness=stiffness,
             target=None if target is None else tuple(target),
+            push=push,
             paused=self._paused,
             repeats=repeats,
         )

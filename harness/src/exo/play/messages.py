@@ -14,6 +14,7 @@
 import json
 import shlex
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -41,7 +42,19 @@ def take(live: Live, text: str, *, out: Path, run_options: str = "") -> Answer:
         _verbs(live)[verb](given)
     except (ExoError, ValueError) as error:
         return {"error": " ".join(str(error).split())}
+    except Exception as error:  # a page whose socket breaks off without a word helps nobody
+        said = " ".join(str(error).split())
+        return {"error": f"an error of exo itself: {type(error).__name__}: {said}"}
     return None
+
+
+def moved(text: str) -> frozenset[str]:
+    """What of the hand a message moves: some of target and push."""
+    with suppress(ExoError):
+        verb, given = _parsed(text)
+        if verb == "hand" and isinstance(given, dict):
+            return frozenset(given) & {"target", "push"}
+    return frozenset()
 
 
 def _parsed(text: str) -> tuple[str, Any]:
@@ -86,7 +99,11 @@ def _hand(live: Live, given: object) -> None:
 def _save(live: Live, given: object, out: Path, run_options: str) -> Answer:
     if not isinstance(given, str):
         raise ExoError(f"save: {given!r:.40}: expected a name")
-    name = file_name(given.strip())
+    try:
+        name = file_name(given.strip())
+    except ValueError as error:
+        # To the page it is a name; to a scenario, an id.
+        raise ExoError(f"name{str(error).removeprefix('id')}") from error
     try:
         path = saved.write(live.tables(), out, name)
     except OSError as error:

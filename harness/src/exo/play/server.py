@@ -34,6 +34,8 @@ HOST = "127.0.0.1"
 NAMES = (HOST, "localhost")
 #: States a second, and how many a page gets before it has seen the first of them.
 RATE, AHEAD = 30.0, 4
+#: From then on a page that gets nothing would believe that nobody is there (s).
+STILL = 1.0
 #: Messages a second that a page may send, and how many at once.
 MOST, BURST = 150.0, 300.0
 #: Pages at once.
@@ -127,8 +129,8 @@ class Tabs:
         self._token = token
         self._take = take
         self._open = 0
-        #: Who has moved the hand last.
-        self._hand: Tab | None = None
+        #: What of the hand → who has moved it last.
+        self._moved: dict[str, Tab] = {}
 
     async def open(self, socket: WebSocket) -> None:
         """One page, from its socket's opening to its end."""
@@ -137,7 +139,10 @@ class Tabs:
             await socket.close(REFUSED)
             return
         if self._open >= TABS:
-            await socket.close(BUSY)
+            # A browser tells a page nothing of a socket that is refused: it is accepted, to say why.
+            with suppress(WebSocketDisconnect, RuntimeError):
+                await socket.accept()
+                await socket.close(BUSY, f"{TABS} pages are open, as many as there may be. Close one of them.")
             return
         self._open += 1
         tab = Tab(socket, self._live)
@@ -146,22 +151,24 @@ class Tabs:
             sender = asyncio.create_task(tab.send_states())
             try:
                 async for text in tab.messages():
-                    if text.startswith('{"hand"'):
-                        self._hand = tab
                     # What writes a file does not hold up the other pages.
                     answer = await run_in_threadpool(self._take, text)
                     if answer is not None:
                         await tab.send(answer)
+                    else:
+                        self._moved |= dict.fromkeys(messages.moved(text), tab)
             finally:
                 sender.cancel()
         except (WebSocketDisconnect, RuntimeError):
             pass
         finally:
             self._open -= 1
-            if self._hand is tab:
-                # A page that is closed while it grips lets go.
-                self._hand = None
-                self._live.hand(target=None, push=[0.0] * len(self._live.bench.force))
+            # A page that is closed while it grips lets go, and ceases to push; what another page does stays.
+            mine = {what for what, by in self._moved.items() if by is tab}
+            for what in mine:
+                del self._moved[what]
+            nothing = {"target": None, "push": [0.0] * len(self._live.bench.force)}
+            self._live.hand(**{what: nothing[what] for what in mine})
 
 
 class Tab:
@@ -177,21 +184,23 @@ class Tab:
     async def send(self, what: dict[str, object]) -> None:
         """One message to the page."""
         async with self._one:
-            await self._socket.send_text(json.dumps(what, ensure_ascii=False))
+            # ASCII: half of a surrogate pair, which JSON can write, has no other way through.
+            await self._socket.send_text(json.dumps(what))
 
     async def send_states(self) -> None:
-        """The newest state, as often as the page can take it."""
-        shape, last = 0, None
+        """The newest state, as often as the page can take it; once in a while also where nothing has changed."""
+        shape, last, told = 0, None, 0.0
         with suppress(WebSocketDisconnect, RuntimeError):
             while True:
                 state = self._live.state
-                if self._unseen < AHEAD and state is not None and state != last:
+                news = state != last or monotonic() - told >= STILL
+                if self._unseen < AHEAD and state is not None and news:
                     run, geometry = self._live.geometry
                     if run != shape and geometry is not None:
                         shape = run
                         await self.send({"geometry": geometry})
                     await self._send_state(state)
-                    last = state
+                    last, told = state, monotonic()
                 await asyncio.sleep(1.0 / RATE)
 
     async def _send_state(self, state: State) -> None:

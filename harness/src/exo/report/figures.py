@@ -3,8 +3,8 @@
 The head of what is packed:
 
     range     [t0, t1] s, of all that is shown
-    series    of each signal: case, column, unit, n, step (s); its block is n ticks (uint32, each as the distance from
-              the one before) and n values (float32)
+    series    of each signal: case, column, unit, n, step (s), and off where its line lies off it; its block is n ticks
+              (uint32, each as the distance from the one before) and n values (float32)
     figures   in the scenario's order; one that is no time plot is a picture: `still` is the number of its bytes
 """
 
@@ -42,6 +42,8 @@ class Signal:
     step: float
     unit: str
     windows: list[thin.Window] = field(default_factory=list)
+    #: How far the line lies from the signal, in its unit, where it has needed more points than there may be.
+    off: float = 0.0
 
     @property
     def time(self) -> NDArray[np.float64]:
@@ -52,12 +54,16 @@ class Signal:
         """With the points alone that show it."""
         gaps = np.flatnonzero(np.isnan(self.values))
         kept = [gaps.astype(np.intp)]
+        off = 0.0
         # No line is drawn over a gap: what lies before it and behind it are thinned apart.
         for start, end in zip(np.append(0, gaps + 1), np.append(gaps, len(self.values)), strict=True):
             if end > start:
-                kept.append(thin.thin(self.time[start:end], self.values[start:end], self.windows) + start)
+                piece = (self.time[start:end], self.values[start:end])
+                chosen = thin.thin(*piece, self.windows)
+                off = max(off, thin.farther(*piece, chosen, self.windows))
+                kept.append(chosen + start)
         points = np.sort(np.concatenate(kept))
-        return Signal(self.ticks[points], self.values[points], self.step, self.unit, self.windows)
+        return Signal(self.ticks[points], self.values[points], self.step, self.unit, self.windows, off)
 
 
 def pack(folder: Path, figures: tuple[Figure, ...]) -> str:
@@ -79,6 +85,7 @@ def pack(folder: Path, figures: tuple[Figure, ...]) -> str:
         "range": [min(instants, default=0.0), max(instants, default=0.0)],
         "series": [
             {"case": case, "column": column, "unit": one.unit, "n": len(one.ticks), "step": one.step}
+            | ({"off": one.off} if one.off else {})
             for (case, column), one in signals.items()
         ],
         "figures": shown,
@@ -110,7 +117,8 @@ def _signals(folder: Path, figures: Iterable[Figure]) -> dict[Key, Signal]:
             first, last = np.flatnonzero(there)[[0, -1]]
             kept = there | _gaps(there)
             kept[:first] = kept[last + 1 :] = False
-            step = float(np.median(np.diff(time[there]))) if last > first else 1.0
+            # A signal of one point: a step from zero to it.
+            step = float(np.median(np.diff(time[there])) if last > first else abs(time[first]) or 1.0)
             ticks = np.round(time[kept] / step).astype(np.int64)
             shown = np.where(there, values, np.nan)[kept]
             found[key] = Signal(ticks, shown, step, printed(said.get(b"unit", b"").decode()))

@@ -25,6 +25,7 @@ SCRIPTS = (
     "palette.js",
     "verdicts.js",
     "legend.js",
+    "marks.js",
     "panel.js",
     "keys.js",
     "figure.js",

@@ -27,7 +27,9 @@ function createFigure(element, figure, signals, bus) {
   const hidden = new Set();
   const drawn = figure.panels.map((panel) => {
     const own = panel.curves.map((curve) => signals[curve.s].time);
-    const home = panel.xRange || [bus.range[0], Math.max(bus.range[0] + 1e-9, ...own.map((time) => time[time.length - 1]))];
+    const ends = Math.max(bus.range[0], ...own.map((time) => time[time.length - 1]));
+    // One instant alone stands in the middle.
+    const home = panel.xRange || (ends > bus.range[0] ? [bus.range[0], ends] : [ends - 0.5, ends + 0.5]);
     const view = { from: home[0], to: home[1], zoomed: false, hidden };
     const legend = legendOf(panel, signals, controls());
     const parts = panelParts(panel, figure);

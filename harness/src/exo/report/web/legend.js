@@ -41,6 +41,12 @@ function legendOf(panel, signals, figure) {
   });
   const bands = panel.bands ? bandsLegend(panel.bands) : null;
   if (bands) element.append(bands.element);
+  const off = panel.curves.filter((curve) => signals[curve.s].off);
+  if (off.length) {
+    const told = off.map(({ s, label }) => `${label} by up to ${withUnit(Number(signals[s].off.toPrecision(2)), signals[s].unit)}`);
+    element.append(Object.assign(document.createElement("span"), { className: "soft", textContent: `Thinned, and off between its points: ${told.join(", ")}.` }));
+  }
+  if (!entries.length) element.append(Object.assign(document.createElement("span"), { className: "soft", textContent: "Nothing is drawn: no value is a number." }));
   return {
     element,
     /** Which names are hidden, and colours of the theme. */

@@ -48,29 +48,13 @@ function drawBands(u, panel, signals) {
   }
 }
 
-/** Levels such as the wall or a limit, with what they are. */
-function drawMarks(u, panel) {
-  const { ctx } = u;
-  const { left, top, width, height } = u.bbox;
-  const scale = devicePixelRatio;
-  ctx.save();
-  ctx.strokeStyle = ctx.fillStyle = shownColor("#444444");
-  ctx.lineWidth = scale;
-  ctx.font = `${11 * scale}px system-ui, sans-serif`;
-  ctx.textAlign = "right";
-  ctx.textBaseline = "alphabetic";
-  for (const mark of panel.marks) {
-    const y = u.valToPos(mark, "y", true);
-    if (y < top || y > top + height) continue;
-    ctx.setLineDash([8 * scale, 3 * scale, 2 * scale, 3 * scale]);
-    ctx.beginPath();
-    ctx.moveTo(left, y);
-    ctx.lineTo(left + width, y);
-    ctx.stroke();
-    const above = y - top > 16 * scale;
-    ctx.fillText(`${panel.markLabel} ${written(mark)}`.trim(), left + width - 4 * scale, y + (above ? -4 : 12) * scale);
-  }
-  ctx.restore();
+/** The points of a curve that no line reaches, since gaps lie on both sides: they are dots. */
+function lonely(u, number) {
+  const values = u.data[number];
+  const own = [];
+  for (let i = 0; i < values.length; i++) if (values[i] !== undefined) own.push(i);
+  const there = (k) => typeof values[own[k]] === "number";
+  return own.filter((_, k) => there(k) && !there(k - 1) && !there(k + 1));
 }
 
 /** uPlot's options for a panel; `view` says what is shown: {from, to, zoomed, hidden}. */
@@ -102,7 +86,7 @@ function optionsOf(panel, signals, view, size) {
         stroke: () => shownColor(curve.color),
         dash: dashOf(curve),
         width: curve.dash.length ? 1.5 : 1.8,
-        points: { show: false },
+        points: { show: true, size: 5, fill: () => shownColor(curve.color), filter: lonely },
       })),
     ],
     axes: [
@@ -117,7 +101,7 @@ function optionsOf(panel, signals, view, size) {
     },
     hooks: {
       drawClear: [(u) => drawBands(u, panel, signals)],
-      draw: [(u) => drawMarks(u, panel)],
+      draw: [(u) => drawMarks(u, panel, signals, view)],
     },
   };
 }

@@ -74,5 +74,5 @@ function marked(value) {
 
 /** A number with its unit; what has no unit has unit 1. */
 function withUnit(value, unit) {
-  return unit === "1" || unit === "" ? written(value) : `${written(value)} ${unit}`;
+  return !Number.isFinite(value) || unit === "1" || unit === "" ? written(value) : `${written(value)} ${unit}`;
 }

@@ -8,6 +8,15 @@ const PLAY_NAMES = {
   "plant.f_e[3]": "table", "controller.tau_a[1]": "joint 1", "controller.tau_a[2]": "joint 2", "controller.tau_a[3]": "joint 3",
 };
 
+/** As in the drawing above, where it shows them. */
+const PLAY_COLOURS = {
+  "plant.q": "--robot", "controller.q_n": "--nominal", "controller.tau_h": "--hand", "controller.tau_a": "--drive",
+  "controller.energy.tank": "--tank", "plant.p[3]": "--robot", "controller.p_n[3]": "--nominal", "controller.f_h[3]": "--hand",
+  "plant.f_e[3]": "--contact", "controller.tau_a[1]": "--drive", "controller.tau_a[2]": "--robot", "controller.tau_a[3]": "--tank",
+};
+/** Lines of a panel differ without their colours, too. */
+const PLAY_DASHES = [[undefined, "solid"], [[6, 3], "dashed"], [[2, 3], "dotted"]];
+
 function playCharts(bench) {
   const place = document.getElementById("charts");
   const columns = [...new Set(bench.panels.flatMap(([, , names]) => names))];
@@ -31,13 +40,12 @@ function playCharts(bench) {
     const colour = (name) => style.getPropertyValue(name).trim();
     const axis = { stroke: colour("--soft"), grid: { stroke: colour("--line"), width: 1 }, ticks: { stroke: colour("--line"), width: 1 }, font: "12px system-ui, sans-serif" };
     charts = bench.panels.map(([title, unit, names]) => {
-      const colours = ["--robot", "--nominal", "--hand"].map(colour);
       const chart = new uPlot({
         width: width(), height: 150, title: `${title} [${unit}]`, cursor: { show: false }, select: { show: false },
-        legend: { live: false, show: names.length > 1 },
+        legend: { live: false, show: names.length > 1, markers: { width: 3, dash: (_chart, i) => PLAY_DASHES[i - 1]?.[1] ?? "solid" } },
         scales: { x: { time: false, range: () => [Math.max(0, (times.at(-1) ?? 0) - PLAY_WINDOW), Math.max(PLAY_WINDOW, times.at(-1) ?? 0)] }, y: { range } },
         axes: [{ ...axis, size: 28, values: (_chart, values) => values.map((value) => `${value} s`) }, { ...axis, size: 58, values: (_chart, values) => values.map((value) => (Math.abs(value) >= 2000 ? `${value / 1000}k` : `${value}`).replace("-", "−")) }],
-        series: [{}, ...names.map((name, i) => ({ label: PLAY_NAMES[name] ?? name, stroke: colours[i], width: 2, dash: i === 1 ? [6, 3] : undefined }))],
+        series: [{}, ...names.map((name, i) => ({ label: PLAY_NAMES[name] ?? name, stroke: colour(PLAY_COLOURS[name]), width: 2, dash: PLAY_DASHES[i][0] }))],
       }, [times, ...names.map((name) => rows[name])], place);
       chart.unit = unit;
       chart.names = names;

@@ -76,24 +76,37 @@ function playHand(bench, send, place) {
   const names = testbed ? ["Push (N)"] : ["Push forward (N)", "Push sideways (N)", "Push up (N)"];
   const sliders = bench.axes.map((axis, i) => {
     const slider = Object.assign(document.createElement("input"), { type: "range", min: -bench.strongest, max: bench.strongest, step: bench.strongest / 40, value: 0, id: `force-${axis}` });
-    const shown = Object.assign(document.createElement("output"), { textContent: "0" });
+    const shown = Object.assign(document.createElement("output"), { textContent: "0", ariaLive: "off" });
     const label = Object.assign(document.createElement("label"), { className: "force" });
     label.append(names[i], slider, shown);
     $("forces").append(label);
     slider.addEventListener("input", () => press(sliders.map((one) => Number(one.slider.value))));
+    slider.setAttribute("aria-valuetext", "0 N");
     return { slider, shown };
   });
-  function press(push) {
+  let pressed = -Infinity;
+  function show(push) {
     push.forEach((force, i) => {
+      const text = `${Number(force.toFixed(2))}`.replace("-", "−");
+      if (sliders[i].shown.textContent === text) return;
       sliders[i].slider.value = force;
-      sliders[i].shown.textContent = force.toFixed(force % 1 ? 1 : 0);
+      sliders[i].slider.setAttribute("aria-valuetext", `${text} N`);
+      sliders[i].shown.textContent = text;
     });
+  }
+  function press(push) {
+    pressed = performance.now();
+    show(push);
     send({ hand: { push } });
   }
-  function release() {
+  function dropped() {
     held = target = null;
     $("dot").hidden = true;
     grip.classList.remove("held");
+    down.clear();
+  }
+  function release() {
+    dropped();
     press(Array(axes).fill(0));
     send({ hand: { target: null } });
   }
@@ -118,7 +131,6 @@ function playHand(bench, send, place) {
     if (elsewhere(event) || !(event.key in keys || event.key === " ")) return;
     event.preventDefault();
     if (event.key === " ") {
-      down.clear();
       release();
     } else if (!down.has(event.key)) {
       down.set(event.key, keys[event.key]);
@@ -133,5 +145,9 @@ function playHand(bench, send, place) {
     }
   });
   $("release").addEventListener("click", release);
-  return { release, cleared: () => sliders.some((one) => Number(one.slider.value)) && press(Array(axes).fill(0)) };
+  /** The push as the run has it, which another page may have set, unless this page has just set it. */
+  function update(state) {
+    if (performance.now() - pressed > 700 && !down.size) show(state.push);
+  }
+  return { update, dropped, cleared: () => sliders.some((one) => Number(one.slider.value)) && press(Array(axes).fill(0)) };
 }

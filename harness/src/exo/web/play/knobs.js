@@ -5,34 +5,50 @@ function playKnobs(bench, send) {
   const $ = (id) => document.getElementById(id);
   const made = (name, more = {}) => Object.assign(document.createElement(name), more);
   const shown = {};
+  const minus = (text) => text.replace("-", "−");
+
+  /** Whether somebody has changed an element just now, or still holds it: then the run's answer is on its way. */
+  function touches(element) {
+    let [touched, held] = [-Infinity, false];
+    const touch = () => (touched = performance.now());
+    // What is drawn over the page, as an open list, hides where the pointer goes up.
+    if (element.type === "range") element.addEventListener("pointerdown", () => (held = true));
+    for (const name of ["pointerup", "pointercancel", "change", "blur"]) element.addEventListener(name, () => ((held = false), touch()));
+    element.addEventListener("input", touch);
+    return () => held || performance.now() - touched < 700;
+  }
 
   function choice(knob) {
     const select = made("select", { id: `knob-${knob.id}` });
     for (const one of knob.choices) select.append(made("option", { value: one, textContent: PLAY_LAWS[one] ?? one }));
     select.addEventListener("change", () => send({ set: { name: knob.id, to: select.value } }));
-    shown[knob.id] = (value) => document.activeElement !== select && (select.value = value);
+    const busy = touches(select);
+    // A list that is open keeps what is lit in it.
+    shown[knob.id] = (value) => !busy() && select.value !== value && (select.value = value);
     return made("label", { className: "knob", htmlFor: select.id, textContent: `${knob.label} ` }).appendChild(select).parentElement;
   }
 
   function number(knob, changed) {
     const label = made("label", { className: "knob" });
     const slider = made("input", { type: "range", id: `knob-${knob.id}`, min: knob.low, max: knob.high, step: "any", value: knob.start });
-    const box = made("output");
+    // The slider itself is what a screen reader reads; the run writes here, too.
+    const box = made("output", { ariaLive: "off" });
     const digits = knob.high - knob.low < 2 ? 3 : knob.high < 50 ? 1 : 0;
     const show = (value) => {
-      box.textContent = `${value.toFixed(digits)} ${knob.unit}`;
-      slider.setAttribute("aria-valuetext", box.textContent);
+      const text = minus(`${value.toFixed(digits)} ${knob.unit}`);
+      if (box.textContent === text) return;
+      box.textContent = text;
+      slider.setAttribute("aria-valuetext", text);
     };
-    let touched = 0;
+    const busy = touches(slider);
     // A fixed one begins a new run: only where the slider is let go.
     slider.addEventListener("input", () => {
-      touched = performance.now();
       show(Number(slider.value));
       if (knob.live) changed(Number(Number(slider.value).toFixed(digits)));
     });
     slider.addEventListener("change", () => changed(Number(Number(slider.value).toFixed(digits))));
     shown[knob.id] = (value) => {
-      if (performance.now() - touched < 700) return;
+      if (busy()) return;
       slider.value = value;
       show(value);
     };
@@ -54,7 +70,8 @@ function playKnobs(bench, send) {
     const label = made("label", { className: "knob switch" });
     label.append(box, ` ${name}`);
     $("live").append(label);
-    shown[`switch ${name}`] = (on) => (box.checked = on);
+    const busy = touches(box);
+    shown[`switch ${name}`] = (on) => !busy() && (box.checked = on);
   }
 
   let paused = false;
@@ -63,8 +80,15 @@ function playKnobs(bench, send) {
   $("repeat").addEventListener("click", () => send({ other: { name: "law", to: $("repeat").dataset.law } }));
   $("save").addEventListener("submit", (event) => {
     event.preventDefault();
-    send({ save: $("save-name").value });
+    waits = send({ save: $("save-name").value });
+    if (!waits) answered({ error: "Not saved: exo play does not answer." });
   });
+  let waits = false;
+  function answered(message) {
+    waits = false;
+    $("saved").className = message.error ? "bad" : "good";
+    $("saved").replaceChildren(...(message.error ? [message.error] : ["Saved. This repeats the run, bit for bit: ", made("code", { textContent: message.command })]));
+  }
 
   return {
     update(state) {
@@ -77,9 +101,8 @@ function playKnobs(bench, send) {
         $("pause").setAttribute("aria-pressed", String(paused));
       }
     },
-    answered(message) {
-      $("saved").className = message.error ? "bad" : "good";
-      $("saved").replaceChildren(...(message.error ? [message.error] : ["Saved. This repeats the run, bit for bit: ", made("code", { textContent: message.command })]));
-    },
+    answered,
+    /** Whether a run is being saved: the next answer tells of it. */
+    waits: () => waits,
   };
 }

@@ -7,9 +7,16 @@
   const place = document.getElementById("drawing");
   let [drawing, state] = [null, null];
 
-  const send = playLink(taken, (open) => {
-    document.getElementById("lost").hidden = open;
-    if (!open) state = null;
+  const send = playLink(taken, (trouble) => {
+    const lost = document.getElementById("lost");
+    lost.textContent = trouble;
+    lost.hidden = !trouble;
+    // What is still drawn is old.
+    document.body.classList.toggle("gone", Boolean(trouble));
+    if (!trouble) return;
+    state = null;
+    told.gone();
+    hand.dropped();
   });
   const told = playTold(bench);
   const hand = playHand(bench, send, () => state && Object.keys(state.values).length ? bench.position.map((name) => state.values[name]) : null);
@@ -20,7 +27,17 @@
   function taken(message) {
     if (message.geometry) shape(message.geometry);
     else if (message.state) update(message.state);
+    else if (message.error && !knobs.waits()) refused(message.error);
     else knobs.answered(message);
+  }
+  let until = 0;
+  /** What was not done, and why; for as long as it takes to read. */
+  function refused(sentence) {
+    const place = document.getElementById("refused");
+    place.textContent = sentence;
+    place.hidden = false;
+    clearTimeout(until);
+    until = setTimeout(() => (place.hidden = true), 8000);
   }
   function shape(geometry) {
     if (drawing) return drawing.reshape(geometry);
@@ -33,6 +50,7 @@
     // In a new run nobody holds the handle.
     if (state && next.run !== state.run) hand.cleared();
     state = next;
+    hand.update(state);
     told.update(state);
     knobs.update(state);
     charts.update(state);

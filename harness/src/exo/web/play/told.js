@@ -63,17 +63,25 @@ function playTold(bench) {
     $("tank").className = value < 0 ? "gauge empty" : "gauge";
     $("tank").setAttribute("aria-valuemax", String(full));
     $("tank").setAttribute("aria-valuenow", shown.toFixed(2));
+    $("tank").setAttribute("aria-valuetext", $("tank-text").textContent);
     const joules = Math.abs(value) < 1000 ? `${value.toFixed(2)} J` : `${Math.round(value / 1000)} kJ`;
     say($("tank-text"), value < 0 ? `${joules.replace("-", "−")}: this law has created energy. It is not passive.` : `${joules} of ${full.toFixed(0)} J: energy that the law may still give out.`);
   }
 
   return {
+    /** Nobody answers. */
+    gone() {
+      say($("status"), "no answer");
+      say($("speed"), "");
+      $("pill").className = "status failed";
+    },
     update(state) {
       say($("time"), `${state.time.toFixed(1)} s`);
       const slow = state.status === "slower than real time";
-      say($("status"), slow ? `slower than real time (${Math.round(100 * state.speed)} %)` : state.status === "ended" ? `ended after ${bench.longest} s: press New run` : state.status);
+      say($("speed"), slow ? `(${Math.round(100 * state.speed)} %)` : "");
+      say($("status"), state.status === "ended" ? `ended after ${bench.longest} s: press New run` : state.status);
       const kind = state.failed ? "failed" : slow ? "slow" : state.status;
-      $("status").className = `status ${kind}`;
+      $("pill").className = `status ${kind}`;
       if (!Object.keys(state.values).length) return;
       say($("hint"), hint(state, banner(state)));
       tank(state);

@@ -21,9 +21,11 @@ export function rail({ extent: [least, most], wall, left, right }) {
     return left + before + (q - low) * perMetre;
   };
   const marked = ticks({ low, high, perMetre, beyond, least, most }).sort((a, b) => a.q - b.q);
-  // Those of the squeezed ends give way where they would touch.
-  const apart = marked.filter(({ q }, i) => (q >= low && q <= high) || [marked[i - 1], marked[i + 1]].every((other) => !other || Math.abs(at(other.q) - at(q)) > 36));
-  return { at, left, right, linear: [left + before, right - after], ticks: apart };
+  // Those of the squeezed ends give way where they would touch one that is nearer.
+  const apart = marked.filter(({ q }) => q >= low && q <= high);
+  for (const tick of marked.filter(({ q }) => q > high)) if (at(tick.q) - at(apart.at(-1)?.q ?? low) > 36) apart.push(tick);
+  for (const tick of marked.filter(({ q }) => q < low).reverse()) if (at(apart[0]?.q ?? high) - at(tick.q) > 36) apart.unshift(tick);
+  return { at, left, right, seen: [low, high], linear: [left + before, right - after], ticks: apart };
 }
 
 function ticks({ low, high, perMetre, beyond, least, most }) {
@@ -32,6 +34,6 @@ function ticks({ low, high, perMetre, beyond, least, most }) {
   for (let i = Math.ceil(low / step - 1e-9); i * step <= high + 1e-9; i++) found.push({ q: i * step, text: (i * step).toFixed(step < 1 ? 1 : 0) });
   const far = [1, 10, 100, 1000];
   if (beyond[1] > 0) for (const q of far) if (q > high + 0.5 && q <= most) found.push({ q, text: `${q}` });
-  if (beyond[0] > 0) for (const q of [10, 100]) if (-q < low - 0.5 && -q >= least) found.push({ q: -q, text: `−${q}` });
+  if (beyond[0] > 0) for (const q of far) if (-q < low - 0.5 && -q >= least) found.push({ q: -q, text: `−${q}` });
   return found.map((tick) => ({ ...tick, text: tick.text.replace("-", "−") }));
 }

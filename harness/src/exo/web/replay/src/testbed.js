@@ -101,10 +101,12 @@ function moving(geometry) {
   const ghostName = svg("text", { class: "er-label er-ghost-name", y: 14 });
   const leader = svg("line", { class: "er-leader", y1: 19, y2: TOP - 2 });
   const cell = svg("text", { class: "er-small", y: TOP + BLOCK.height + 2, "text-anchor": "end" }, "load cell");
+  // Where only the direction can be seen, a number says how far.
+  const place = svg("text", { class: "er-label er-place", y: 30 });
   const arrows = Object.fromEntries(["hand", "drive", "wall", "unseen"].map((name) => [name, arrow(name)]));
   const verdict = svg("text", { class: "er-verdict", y: TOP - 30, "text-anchor": "middle" });
-  const layers = [ghost, spring, mass, cell, leader, ghostName, verdict, ...Object.values(arrows).map((one) => one.element)];
-  return { spring, mass, ghost, ghostName, leader, cell, verdict, arrows, layers };
+  const layers = [ghost, spring, mass, cell, place, leader, ghostName, verdict, ...Object.values(arrows).map((one) => one.element)];
+  return { spring, mass, place, ghost, ghostName, leader, cell, verdict, arrows, layers };
 }
 
 function arrow(name) {
@@ -136,6 +138,10 @@ function move(parts, geometry, state, status) {
   put(parts.mass, { transform: `translate(${x.toFixed(2)} 0)` });
   put(parts.mass, { class: status.kind === "sticks" ? "er-stuck" : status.kind === "letGo" ? "er-loose" : "" });
   put(parts.cell, { x: (x - BLOCK.width - 2).toFixed(1) });
+  const far = state.q < scale.seen[0] - 0.005 || state.q > scale.seen[1] + 0.005;
+  show(parts.place, far);
+  put(parts.place, { x: Math.max(4, x - BLOCK.width - 48).toFixed(1) });
+  if (far) say(parts.place, `mass at ${metres(state.q)}`);
   badge(parts, status, x);
   nominal(parts, geometry, state, x);
   // The arrow ends at a hand that pushes, and begins at one that pulls.
