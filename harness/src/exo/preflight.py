@@ -9,9 +9,9 @@ import re
 from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
-from exo import derived, metrics
+from exo import derived, dimensions, metrics
 from exo.errors import FmuError, ScenarioError, close_matches
-from exo.fmu import Archive
+from exo.fmu import Archive, unit_of
 from exo.master import Plan
 from exo.paper import lookup
 from exo.profile import SAME_INSTANT
@@ -129,7 +129,10 @@ def _parameters(plan: Plan, of: Mapping[str, Archive], owner: str) -> None:
         component, name = key.split(".", 1)
         if component not in of:
             raise ScenarioError(f"{owner}: {key}: no component {component}{close_matches(component, of)}")
-        of[component].start_value(name, value)
+        try:
+            of[component].start_value(name, value)
+        except FmuError as error:
+            raise FmuError(f"{owner}: {error}") from error
         if key in plan.inputs:
             raise ScenarioError(
                 f"{owner}: {key} = {value} has no effect, because it is wired to {plan.inputs[key]}; "
@@ -158,6 +161,11 @@ def _wires(plan: Plan, of: Mapping[str, Archive], owner: str) -> None:
             raise FmuError(
                 f"{owner}: {key}: {of[component].path.name}: {output}: expected {article} {kinds[1]} output, "
                 f"this is {origin.causality} of type {origin.type}"
+            )
+        if dimensions.differ(of[component], origin, of[to], variable):
+            raise FmuError(
+                f"{owner}: {key} is in {unit_of(variable)}, {source} in {unit_of(origin)}; expected one unit, because "
+                "nothing converts it"
             )
 
 

@@ -410,6 +410,8 @@ def load(name: str) -> Scenario:
             raise ScenarioError(f"{name}: no such scenario file")
         return parse(text=expansion.text_of(path, origin=path.name), origin=path.name, folder=path.parent)
     known = built_in()
+    if name not in known and (Path(name).suffix or Path(name).exists()):
+        raise ScenarioError(f"{name}: expected the path of a TOML file, which ends in .toml, or an id of `exo list`")
     if name not in known:
         raise ScenarioError(f"unknown scenario {name}{close_matches(name, known)}")
     file = known[name]
