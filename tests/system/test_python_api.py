@@ -256,8 +256,8 @@ def test_ctrl_c_ends_a_long_run_at_once_and_the_next_one_runs(engine: Any, testb
     exo.simulate(testbed, duration=0.1, engine=engine)
     sent: list[float] = []
     timer = threading.Timer(0.2, lambda: (sent.append(time.monotonic()), os.kill(os.getpid(), signal.SIGINT)))
+    timer.start()
     with pytest.raises(KeyboardInterrupt):
-        timer.start()
         exo.simulate(testbed, duration=4000.0, engine=engine)
     assert time.monotonic() - sent[0] < 1.0
     assert len(exo.simulate(testbed, duration=0.1, engine=engine).time) == 50
