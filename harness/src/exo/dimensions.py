@@ -27,6 +27,14 @@ def differ(source: Archive, output: Any, target: Archive, variable: Any) -> bool
     return not (same and _close(a.factor, b.factor) and _close(a.offset, b.offset))
 
 
+def names_differ(a: str, b: str) -> bool:
+    """Whether two names of units certainly mean different ones."""
+    first, second = meaning(a), meaning(b)
+    if a == b or first is None or second is None:
+        return False
+    return _without_angle(first) != _without_angle(second) or not _close(first.factor, second.factor)
+
+
 def _meaning(archive: Archive, name: str) -> Meaning | None:
     """What the FMU's definition says, else what the name says."""
     for unit in archive.description.unitDefinitions or ():

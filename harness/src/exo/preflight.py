@@ -57,6 +57,7 @@ def check(
             for name in _texts(metric.arguments.values()):
                 if name.split(".", 1)[0] in (*of, DERIVED) and "." in name:
                     _recorded(name, plans[case], of, computed, owner)
+            _unit(metric, of, owner)
             if not shortened and (window := empty_window(metric, plans[case])):
                 raise ScenarioError(f"{owner}: {window}")
     for case, plan in plans.items():
@@ -76,6 +77,20 @@ def one_run(*, plan: Plan, archives: Mapping[str, Archive], owner: str) -> None:
     of = {name: archives[archive] for name, archive in plan.components.items()}
     _parameters(plan, of, owner)
     _wires(plan, of, owner)
+
+
+def _unit(metric: Metric, of: Mapping[str, Archive], owner: str) -> None:
+    """Refuses a number that would be told in another unit than that of the column that it is taken from."""
+    if metric.function not in metrics.IN_ITS_UNIT:
+        return
+    given = metric.arguments.get("columns", metric.arguments.get("column", ()))
+    for name in [given] if isinstance(given, str) else given:
+        component, _, variable = str(name).partition(".")
+        if component not in of or variable not in of[component].variables:
+            continue  # a derived signal
+        unit = unit_of(of[component].variable(variable))
+        if dimensions.names_differ(unit, metric.unit):
+            raise ScenarioError(f"{owner}: unit: got {metric.unit}, and {name} is in {unit}; expected {unit}")
 
 
 def empty_window(metric: Metric, plan: Plan) -> str:

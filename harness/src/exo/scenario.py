@@ -20,6 +20,7 @@ from pydantic import (
 
 from exo import expansion
 from exo.errors import ScenarioError, close_matches
+from exo.known_keys import keys_at
 from exo.naming import expand_names, expand_values, expand_wires, file_name, line, text
 from exo.plain import plain_values
 
@@ -367,7 +368,8 @@ def _sentences(error: ValidationError, origin: str, data: Any) -> list[str]:
         where = f"{origin}: {key}" if key else origin
         match problem["type"]:
             case "extra_forbidden":
-                lines.append(f"{where}: unknown key, with value {_quoted(problem)}; expected one of the known keys")
+                known = close_matches(str(problem["loc"][-1]), keys_at(Scenario, problem["loc"]))
+                lines.append(f"{where}: unknown key, with value {_quoted(problem)}{known}")
             case "missing":
                 lines.append(f"{where}: missing; expected a value")
             case "value_error":
