@@ -77,6 +77,8 @@ def test_a_requirement_of_a_built_in_scenario_needs_no_file_of_it(tmp_path: Path
         (REQUIREMENTS.format(reach=0.1).replace('"short"', '"shirt"'), "unknown scenario shirt"),
         (REQUIREMENTS.format(reach=0.1).replace("plant.q", "plant.r"), "no recorded column plant.r"),
         (REQUIREMENTS.format(reach="("), "temporal logic"),
+        (REQUIREMENTS.format(reach=0.1).replace('"short"', '"short"\ncases = ["pish*"]'), "short has no case pish*"),
+        (REQUIREMENTS.format(reach=0.1).replace("[0:0.4]", "[0:40]"), "looks 40 s ahead"),
     ],
 )
 def test_a_wrong_file_is_one_sentence(tmp_path: Path, text: str, said: str):
@@ -85,6 +87,37 @@ def test_a_wrong_file_is_one_sentence(tmp_path: Path, text: str, said: str):
     done = pytest_in(tmp_path)
     assert done.returncode != 0
     assert said in done.stdout
+    assert "Traceback" not in done.stdout + done.stderr
+
+
+def test_a_project_that_takes_warnings_for_errors_can_have_the_plugin(tmp_path: Path):
+    (tmp_path / "short.toml").write_text(SHORT, encoding="utf-8")
+    (tmp_path / "requirements.toml").write_text(REQUIREMENTS.format(reach=0.1), encoding="utf-8")
+    done = pytest_in(tmp_path, "-W", "error")
+    assert "1 passed in" in done.stdout, done.stdout
+
+
+def test_workers_share_the_requirements(tmp_path: Path):
+    (tmp_path / "short.toml").write_text(SHORT, encoding="utf-8")
+    (tmp_path / "requirements.toml").write_text(REQUIREMENTS.format(reach=0.1), encoding="utf-8")
+    (tmp_path / "far.requirements.toml").write_text(REQUIREMENTS.format(reach=100.0), encoding="utf-8")
+    done = pytest_in(tmp_path, "-n", "2", "--junit-xml=junit.xml")
+    assert "1 failed, 1 passed" in done.stdout, done.stdout
+    assert (tmp_path / "junit.xml").read_text(encoding="utf-8").count('name="margin"') == 2
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (["--exo-fmu-dir", "nowhere"], "--exo-fmu-dir nowhere: no such folder; expected the folder of the archives"),
+        (["--exo-engine", "rust"], "--exo-engine rust: expected one of fmpy, native"),
+    ],
+)
+def test_an_option_that_no_test_could_run_with_is_refused_at_once(tmp_path: Path, arguments: list[str], said: str):
+    (tmp_path / "test_nothing.py").write_text("def test_nothing(): pass\n", encoding="utf-8")
+    done = pytest_in(tmp_path, *arguments)
+    assert done.returncode == 4, "pytest's code of wrong usage"
+    assert said in done.stderr
     assert "Traceback" not in done.stdout + done.stderr
 
 

@@ -1,9 +1,16 @@
 """`exo` from Python: what it loads, couples and runs, and what it says where that is not possible."""
 
+import copy
 import importlib
+import os
+import pickle
 import pkgutil
+import signal
 import subprocess
 import sys
+import threading
+import time
+from concurrent.futures import ThreadPoolExecutor
 from io import StringIO
 from pathlib import Path
 from typing import Any
@@ -123,6 +130,8 @@ def test_a_force_may_be_a_number_a_function_an_array_or_segments(testbed: exo.Sy
     import math  # noqa: PLC0415
 
     time = np.arange(500) * STEP
+    single = exo.simulate(testbed, duration=1.0, inputs={"plant.tau_h": np.array(2.0)})
+    assert (single["plant.tau_h"] == 2.0).all()
     ways: list[Any] = [
         lambda t: 5.0 * np.sin(2.0 * np.pi * 0.5 * t + 0.25),
         lambda t: 5.0 * math.sin(2.0 * math.pi * 0.5 * t + 0.25),
@@ -191,6 +200,80 @@ def test_tables_have_signals_and_units(pushed: exo.Run) -> None:
     assert data.time.attrs["units"] == "s"
     assert data.attrs["controller.K"] == pushed.parameters["controller.K"]
     assert float(data["plant.q"].sel(time=1.0, method="nearest")) == pushed["plant.q"][500]
+
+
+def test_a_run_is_a_mapping_of_names_to_arrays_that_nobody_can_change(pushed: exo.Run) -> None:
+    """Tests and notebooks share runs: one that subtracts in place would change what the others see."""
+    assert list(pushed) == list(pushed.signals) == pushed.names()
+    assert len(pushed) == len(pushed.signals)
+    for values in (pushed["plant.q"], pushed.time):
+        with pytest.raises(ValueError, match="read-only"):
+            values[0] = 1.0
+    data = pushed.dataset("plant.q")
+    data["plant.q"] += 1.0
+    table = pushed.frame("plant.q")
+    table["plant.q"] += 1.0
+    assert pushed["plant.q"][0] == 0.0
+    assert pushed == pushed  # noqa: PLR0124
+    assert pushed != copy.copy(pushed), "two runs are no truth values of arrays"
+    for wrong in (0, ["plant.q"]):
+        with pytest.raises(exo.ExoError, match="no signal"):
+            _ = pushed[wrong]  # type: ignore[index]
+        with pytest.raises(exo.ExoError, match="expected names or patterns, one argument each"):
+            pushed.frame(wrong)  # type: ignore[arg-type]
+
+
+def test_what_goes_to_another_process_comes_back_as_it_was(testbed: exo.System, pushed: exo.Run) -> None:
+    for there in (pickle.loads(pickle.dumps(pushed)), copy.deepcopy(pushed)):
+        assert {name: there[name].tobytes() for name in there} == {name: pushed[name].tobytes() for name in pushed}
+        assert (there.units, there.parameters, there.choices) == (pushed.units, pushed.parameters, pushed.choices)
+        with pytest.raises(ValueError, match="read-only"):
+            there["plant.q"][0] = 1.0
+        with pytest.raises(TypeError, match="does not support item assignment"):
+            there.signals["plant.q"] = there["plant.q"]
+    system = pickle.loads(pickle.dumps(testbed))
+    assert (system.wires, system.fmus["plant"]["M"]) == (testbed.wires, testbed.fmus["plant"]["M"])
+    inputs = {"controller.tau_h": 3.0, "plant.tau_h": 3.0}
+    assert np.array_equal(exo.simulate(system, duration=2.0, inputs=inputs)["plant.q"], pushed["plant.q"])
+
+
+@pytest.mark.parametrize("engine", ["fmpy", "native"])
+def test_threads_simulate_one_system_at_the_same_time(engine: Any, testbed: exo.System) -> None:
+    def end(force: float) -> float:
+        inputs = {"controller.tau_h": force, "plant.tau_h": force}
+        return float(exo.simulate(testbed, duration=0.5, inputs=inputs, engine=engine)["plant.q"][-1])
+
+    forces = [1.0, 2.0, 3.0, 4.0, 5.0, 6.0]
+    with ThreadPoolExecutor(3) as pool:
+        together = list(pool.map(end, forces))
+    assert together == [end(force) for force in forces]
+    assert len(set(together)) == len(forces)
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="Windows sends no SIGINT to a process of its own")
+@pytest.mark.parametrize("engine", ["fmpy", "native"])
+def test_ctrl_c_ends_a_long_run_at_once_and_the_next_one_runs(engine: Any, testbed: exo.System) -> None:
+    exo.simulate(testbed, duration=0.1, engine=engine)
+    sent: list[float] = []
+    timer = threading.Timer(0.2, lambda: (sent.append(time.monotonic()), os.kill(os.getpid(), signal.SIGINT)))
+    timer.start()
+    with pytest.raises(KeyboardInterrupt):
+        exo.simulate(testbed, duration=4000.0, engine=engine)
+    assert time.monotonic() - sent[0] < 1.0
+    assert len(exo.simulate(testbed, duration=0.1, engine=engine).time) == 50
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="Windows keeps a folder that is somebody's working folder")
+def test_a_working_folder_that_is_gone_is_told(
+    testbed: exo.System, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.delenv("EXO_FMU_DIR", raising=False)
+    (tmp_path / "gone").mkdir()
+    monkeypatch.chdir(tmp_path / "gone")
+    (tmp_path / "gone").rmdir()
+    for call in (lambda: exo.load("Testbed.fmu"), lambda: exo.simulate(testbed, duration=0.1)):
+        with pytest.raises(exo.ExoError, match="the working folder is not there any more; expected one that exists"):
+            call()
 
 
 def test_signals_are_chosen_by_name_and_pattern(pushed: exo.Run) -> None:
@@ -294,6 +377,12 @@ def test_scenarios_from_python_are_those_of_the_file(fmu_dir: Path) -> None:
         ({"coupling": "late"}, "coupling 'late': expected one of zero_delay, one_sample_delay, exchange_at_once"),
         ({"delayed": ["plant.tau"]}, r"delayed: plant\.tau: no wired input \(close matches: plant\.tau_a"),
         ({"record": ["plant.version"]}, "record: plant.version: expected a variable that is a number"),
+        ({"record": 3}, r"record: got 3; expected names as component\.variable"),
+        ({"wires": [("controller.q", "plant.q")]}, "wires: got a value of type list; expected {"),
+        ({"wires": {"controller.q": "plant.tau_e"}}, r"controller\.q is in m, plant\.tau_e in N; expected one unit"),
+        ({"wires": {"controller.q": "-plant.dq"}}, r"controller\.q is in m, -plant\.dq in m/s; expected one unit"),
+        ({"delayed": ["plant.tau_a"]}, "coupling 'zero_delay' with .*: delayed inputs belong to one_sample_delay"),
+        ({"coupling": "one_sample_delay"}, "without delayed inputs it is zero_delay; expected both or none"),
     ],
 )
 def test_what_cannot_be_coupled_is_named_in_one_sentence(changed: dict[str, Any], said: str, fmu_dir: Path) -> None:
@@ -329,6 +418,18 @@ def test_what_cannot_be_coupled_is_named_in_one_sentence(changed: dict[str, Any]
         ({"parameters": {"controller.law": "pasive"}}, r"law: no item pasive \(close matches: passive"),
         ({"parameters": {"controller.q": 1.0}}, r"controller\.q = 1\.0 has no effect, because it is wired to plant\.q"),
         ({"parameters": {"plant.M": -1.0}}, "plant: fmi2.*M = -1 kg, expected"),
+        ({"parameters": {"controller.k": 1.0}}, r"no variable k \(close matches: K\)"),
+        ({"parameters": {"plant.M": float("nan")}}, "M: expected a finite Real of at most .*, got nan"),
+        ({"parameters": {"controller.law": 10**30}}, "expected a finite Integer of at most 2.14748e.09, got 10*…"),
+        ({"parameters": [("plant.M", 1.0)]}, "parameters: got a value of type list; expected {"),
+        ({"inputs": [("plant.tau_h", 1.0)]}, "inputs: got a value of type list; expected {"),
+        ({"inputs": {"plant.tau_h": None}}, "tau_h: got None of type NoneType; expected numbers"),
+        ({"inputs": {"plant.tau_h": lambda _: None}}, "tau_h: got None of type NoneType; expected numbers"),
+        ({"inputs": {"plant.tau_h": np.full(50, 1j)}}, r"got .*1j.* of type complex128; expected numbers"),
+        ({"inputs": {"plant.tau_h": lambda t: t + 1j}}, "of type complex128; expected numbers"),
+        ({"inputs": {"plant.tau_h": ["1.0"] * 50}}, "got .*'1.0'.* of type str_; expected numbers"),
+        ({"inputs": {"plant.tau_h": [None] * 50}}, "got None of type NoneType; expected numbers"),
+        ({"inputs": {"plant.tau_h": 10**400}}, "tau_h: a number of 401 digits; expected a double"),
     ],
 )
 def test_what_cannot_be_run_is_named_in_one_sentence(changed: dict[str, Any], said: str, testbed: exo.System) -> None:

@@ -3,6 +3,8 @@
 import inspect
 import re
 import shlex
+import subprocess
+import sys
 from contextlib import redirect_stdout
 from io import StringIO
 from pathlib import Path
@@ -58,6 +60,67 @@ def test_every_public_name_is_documented_and_typed(name: str) -> None:
         assert signature.return_annotation is not inspect.Signature.empty, function.__qualname__
         untyped = [one.name for one in signature.parameters.values() if one.annotation is one.empty]
         assert set(untyped) <= {"self", "cls"}, function.__qualname__
+
+
+SCRIPT = """
+from pathlib import Path
+import numpy as np
+from numpy.typing import NDArray
+import exo
+
+def waves(t: NDArray[np.float64]) -> NDArray[np.float64]:
+    return 5.0 * np.sin(2.5 * t)
+
+def push(t: float) -> float:
+    return 1.0 if t > 1.0 else 0.0
+
+def main() -> None:
+    plant: exo.Fmu = exo.load("Testbed.fmu")
+    mass: exo.Variable = plant["M"]
+    fmus = {"plant": "Testbed.fmu"}
+    system: exo.System = exo.couple(fmus, step=0.002)
+    exo.couple({"one": plant, "other": Path("Testbed.fmu")}, wires={"one.tau_h": "other.tau_e"}, step=0.002)
+    gains = {"plant.M": 6.0}
+    run: exo.Run = exo.simulate(
+        system,
+        duration=1.0,
+        inputs={"plant.tau_h": push, "plant.tau_d": waves, "plant.tau_a": [1.0] * 500, "plant.q_d": np.float32(1.0)},
+        parameters=gains,
+    )
+    exo.simulate(
+        system,
+        duration=1.0,
+        inputs={"plant.tau_h": np.ones(500)},
+        parameters={"plant.M": np.float64(6.0), "plant.drive.mode": "torque", "plant.x[1..3]": np.ones(3)},
+    )
+    exo.simulate(system, duration=1.0, inputs={"plant.tau_h": [{"kind": "constant", "amplitude": 1.0}]})
+    scenario: exo.Scenario = exo.read_scenario("wall")
+    print(exo.simulate(scenario, case="standard_5_0.5").units["plant.q"], mass.start, mass.unit)
+    q: NDArray[np.float64] = run["plant.q"]
+    print(q.max(), run.frame("plant.q")["plant.q"], run.dataset()["plant.q"].attrs["units"], [name for name in run])
+    run.plot("plant.q").savefig("x.png")
+    path: Path = run.save("x.parquet")
+    print(exo.read_run(path).name, exo.batch("wall", {"controller.K": [1.0]})["release_delay"])
+    try:
+        exo.load("x")
+    except exo.ExoError as error:
+        print(error)
+"""
+
+
+def test_the_script_of_somebody_who_checks_types_strictly_passes(tmp_path: Path) -> None:
+    """And what is wrong in it is found: a step that is a text, a force that is no function of the time."""
+    (tmp_path / "script.py").write_text(SCRIPT, encoding="utf-8")
+    wrong = SCRIPT.replace("fmus, step=0.002", 'fmus, step="fast"').replace(
+        '"plant.tau_h": push', '"plant.tau_h": main'
+    )
+    (tmp_path / "wrong.py").write_text(wrong, encoding="utf-8")
+    cache = f"--cache-dir={Path(exo.__file__).parents[2] / '.mypy_cache'}"
+    command = [sys.executable, "-m", "mypy", "--strict", cache, "script.py", "wrong.py"]
+    answer = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
+    lines = answer.stdout.splitlines()
+    assert [line for line in lines if line.startswith("script.py")] == [], answer.stdout
+    assert sum("error:" in line for line in lines) == 2, answer.stdout + answer.stderr
 
 
 def test_the_exports_of_the_results_page_are_commands_that_run(

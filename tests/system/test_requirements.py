@@ -104,6 +104,10 @@ def test_signals_are_what_their_names_say():
     ("change", "said"),
     [
         ({"text": "always(x <="}, "temporal logic"),
+        ({"text": "always[1:0.5](x <= 1)"}, r"window \[1:0\.5\]: expected bounds of 0 or more that increase"),
+        ({"text": "always[-1:0.5](x <= 1)"}, r"window \[-1:0\.5\]: expected bounds of 0 or more"),
+        ({"text": "always[1ms:5](x <= 1)"}, r"window \[1ms:5\]: expected a unit behind the second bound, too"),
+        ({"text": "always(x/y <= 1)", "y": "plant.y"}, "x/y would be one name; expected spaces around /"),
         ({"text": "always(y <= 1)"}, "no signal y"),
         ({"x": "plant.x", "z": "plant.z"}, "signal z"),
         ({"x": {"norm": "a.b", "column": "a.b"}}, "column and norm"),
@@ -117,6 +121,18 @@ def test_a_wrong_requirement_is_refused_by_name(change: dict[str, object], said:
         one(**change)  # type: ignore[arg-type]
 
 
+@pytest.mark.parametrize("text", ["always[0:0.04](x <= 1)", "eventually[40ms:40ms](x >= -1)", "always(next(x <= 1))"])
+def test_a_window_may_end_with_the_last_sample(text: str):
+    assert margin(one(text=text), recorded(plant__x=np.zeros(5))) == pytest.approx(1.0)
+
+
+def test_a_step_that_is_no_whole_number_of_nanoseconds_has_windows_of_whole_samples():
+    x = np.zeros(2049)
+    x[513] = 5.0
+    for text, expected in (("always[0:0.5](x <= 1)", 1.0), ("always[0:0.501953125](x <= 1)", -4.0)):
+        assert formula.robustness(text, {"x": x}, step=1 / 1024) == pytest.approx(expected)
+
+
 @pytest.mark.parametrize(
     ("requirement", "said"),
     [
@@ -124,7 +140,14 @@ def test_a_wrong_requirement_is_refused_by_name(change: dict[str, object], said:
         (one(x={"parameter": "plant.q"}), "no parameter plant.q"),
         (one(at=7.0), "within the run"),
         (one(at=0.005), "multiple of the step"),
-        (one(text="always[0:0.0005](x <= 1)"), "formula"),
+        (one(text="always[0:0.0005](x <= 1)"), "window [0:0.0005]: expected multiples of the step, 0.01 s"),
+        (one(text="always[0:0.05](x <= 1)"), "looks 0.05 s ahead and the run ends after 0.04 s"),
+        (one(text="always[0.06:0.07](x <= 1)"), "looks 0.07 s ahead and the run ends after 0.04 s"),
+        (one(text="eventually[0:0.05](x >= 0)"), "looks 0.05 s ahead"),
+        (one(text="always[0:0.03](eventually[0:0.02](x >= 0))"), "looks 0.05 s ahead"),
+        (one(text="always((x >= 1) implies always[0:50ms](x <= 1))"), "looks 0.05 s ahead"),
+        (one(text="always[0:0.03](x <= 1)", at=0.02), "looks 0.03 s ahead and the run ends after 0.02 s"),
+        (one(at=0.04), "one sample is left; expected two or more"),
     ],
 )
 def test_what_a_run_lacks_is_named_with_requirement_and_case(requirement: Requirements, said: str):
@@ -152,7 +175,10 @@ def test_every_requirement_of_the_paper_and_of_the_project_finds_its_cases():
     for name, requirement in built_in().requirements.items():
         for key, shown in requirement.shown.items():
             assert shown.scenario in known, (name, key)
-            cases = tuple(case.id for case in scenarios.load(shown.scenario).cases)
+            scenario = scenarios.load(shown.scenario)
+            _, ahead = formula._parsed(shown.formula, shown.signals, step=scenario.step)
+            assert shown.at + ahead * scenario.step < scenario.duration, (name, key)
+            cases = tuple(case.id for case in scenario.cases)
             for pattern in shown.cases:
                 assert any(shown.model_copy(update={"cases": (pattern,)}).meant(cases)), (name, key, pattern)
     assert [name for name, one in built_in().requirements.items() if one.of == "paper"] == [
@@ -224,6 +250,41 @@ signals.q = "plant.q"
     assert exo("run", tmp_path / "short.toml", "--requirements", own, "--out", out).exit_code == 1
     refused = exo("run", "wall", "--requirements", tmp_path / "none.toml", "--out", out)
     assert (refused.exit_code, "cannot be read" in refused.output) == (2, True)
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        ('scenario = "shirt"', "requirement reach.end: scenario: unknown scenario shirt"),
+        ('scenario = "short"\ncases = ["pish*"]', "requirement reach.end: cases: short has no case pish*"),
+        ('scenario = "wall"', "has no requirement of short; its scenarios are wall"),
+    ],
+)
+def test_a_requirement_that_would_never_be_judged_is_refused(change: str, said: str, tmp_path: Path):
+    (tmp_path / "short.toml").write_text(SHORT, encoding="utf-8")
+    own = tmp_path / "mine.toml"
+    text = """
+[requirements.reach]
+text = "The mass gets far."
+source = "here"
+[requirements.reach.shown.end]
+title = "position"
+scenario = "short"
+formula = "always(q <= 100)"
+unit = "m"
+signals.q = "plant.q"
+"""
+    own.write_text(text.replace('scenario = "short"', change), encoding="utf-8")
+    done = exo("run", tmp_path / "short.toml", "--requirements", own, "--out", tmp_path / "results")
+    assert (done.exit_code, said in done.stderr) == (2, True), done.output
+    assert not (tmp_path / "results").exists()
+    own.write_text(text, encoding="utf-8")
+    assert exo("run", tmp_path / "short.toml", "--requirements", own, "--out", tmp_path / "results").exit_code == 0
+    assert "pass" in exo("requirements", own, "--results", tmp_path / "results").output
+    # A margin of another formula is not this one's.
+    own.write_text(text.replace("q <= 100", "q <= 0"), encoding="utf-8")
+    shown = exo("requirements", own, "--results", tmp_path / "results")
+    assert (shown.exit_code, "not run" in shown.output) == (0, True)
 
 
 def test_two_files_that_judge_the_same_are_refused():

@@ -1,11 +1,12 @@
 """Scenario files: what is wrong is named with file, key, value and expectation."""
 
 import re
+from pathlib import Path
 
 import pytest
 
 from exo import scenario
-from exo.errors import ScenarioError
+from exo.errors import ExoError, ScenarioError
 from exo.experiment import run
 from exo.paper import lookup, published
 
@@ -52,7 +53,11 @@ def test_the_good_one_is_good() -> None:
     ("old", "new", "message"),
     [
         ("step = 0.002", "step = 0.002\nspeed = 3", r"mini\.toml: speed: unknown key, with value 3"),
-        ("amplitude = 1.0", "amplitud = 1.0", r"mini\.toml: profiles\.tau_h\.0\.amplitud: unknown key"),
+        ("amplitude = 1.0", "amplitud = 1.0", r"tau_h\.0\.amplitud: unknown key, .* \(close matches: amplitude"),
+        ("[inputs]", "[input]", r"input: unknown key, .* \(close matches: inputs"),
+        ("[inputs]", "[parameter]\n[inputs]", r"parameter: unknown key, .* \(close matches: parameters"),
+        ("arguments =", "argument =", r"metrics\.m\.argument: unknown key, .* \(close matches: arguments"),
+        ('id = "only"', 'id = "only"\nlable = "l"', r"cases\.only\.lable: unknown key, .* \(close matches: label"),
         ("duration = 1.0", 'duration = "1"', r"mini\.toml: duration: got '1'; expected: .*number"),
         ("duration = 1.0", "duration = true", r"mini\.toml: duration: got True; expected: .*number"),
         ("duration = 1.0", "duration = -1.0", r"mini\.toml: duration: got -1\.0; expected: .*greater than 0"),
@@ -135,9 +140,57 @@ def test_the_controller_gets_the_force_itself_unless_the_sensor_is_the_subject(n
         assert not read
 
 
-def test_an_unknown_scenario_names_close_matches() -> None:
+def test_an_unknown_scenario_names_close_matches(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     with pytest.raises(ScenarioError, match=r"unknown scenario wal .*wall"):
         scenario.load("wal")
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "mine").write_text(GOOD, encoding="utf-8")
+    for name in ("mine", "my.yaml", "my.json", "MY.TOML"):
+        with pytest.raises(ScenarioError, match=rf"{name}: expected the path of a TOML file, which ends in \.toml, or"):
+            scenario.load(name)
+
+
+def test_a_metric_that_nobody_knows_says_which_are_known() -> None:
+    text = 'base = "testbed_wall"\ntitle = "t"\nabout = "a"\nsource = "s"\nduration = 1.0\n[cases.a]\n'
+    text += "[metrics.release_dely]\n"
+    with pytest.raises(ScenarioError, match=r"metrics\.release_dely: no known metric of this id .*release_delay"):
+        scenario.parse(text=text, origin="mini.toml")
+
+
+def test_a_file_with_the_mark_of_windows_editors_is_read(tmp_path: Path) -> None:
+    (tmp_path / "mini.toml").write_text(GOOD, encoding="utf-8-sig")
+    assert (tmp_path / "mini.toml").read_bytes().startswith(b"\xef\xbb\xbf")
+    assert scenario.load(str(tmp_path / "mini.toml")) == scenario.parse(text=GOOD, origin="mini.toml")
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "said"),
+    [
+        ('unit = "m"', 'unit = "mm"', r"mini: metric m: case only: unit: got mm, and plant\.q is in m; expected m"),
+        ('unit = "m"', 'unit = "N"', "unit: got N"),
+        ("arguments = {", "arguments = { aftr = 1.0,", "unexpected keyword argument 'aftr'; it takes column, after"),
+        ('id = "only"', 'id = "only"\nparameters = { "plant.m" = 1.0 }', r"mini: case only: .* no variable m .*M"),
+        (
+            '"controller.q" = "plant.q"',
+            '"controller.q" = "plant.dq"',
+            r"q is in m, plant\.dq in m/s; expected one unit",
+        ),
+    ],
+)
+def test_what_the_fmus_show_to_be_wrong_is_named_with_scenario_and_case(
+    old: str, new: str, said: str, fmu_dir: Path
+) -> None:
+    assert old in GOOD
+    wrong = scenario.parse(text=GOOD.replace(old, new, 1), origin="mini.toml")
+    with pytest.raises(ExoError, match=said):
+        run(scenario=wrong, fmu_dir=fmu_dir)
+
+
+def test_a_share_of_a_column_has_no_unit_of_it(fmu_dir: Path) -> None:
+    """`time_above` is in s, whatever the column is in."""
+    text = GOOD.replace('"maximum"', '"time_above"').replace('unit = "m"', 'unit = "s"')
+    text = text.replace('{ column = "plant.q" }', '{ column = "plant.q", level = 0.0 }')
+    assert run(scenario=scenario.parse(text=text, origin="mini.toml"), fmu_dir=fmu_dir).passed
 
 
 def test_a_wrong_function_is_refused_before_anything_runs(tmp_path: object) -> None:

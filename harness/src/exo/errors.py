@@ -28,10 +28,10 @@ def in_case(scenario: str, case: str) -> Iterator[None]:
 
 def close_matches(name: str, known: Iterable[str]) -> str:
     """` (close matches: …)` for an unknown name, or all known names when nothing is near and they are few."""
-    known = sorted(known)
-    near = get_close_matches(name, known, n=3, cutoff=0.5)
+    name, known = str(name), sorted(known)
+    near = [one for one in known if one.casefold() == name.casefold()] + get_close_matches(name, known, n=3, cutoff=0.5)
     if near:
-        return f" (close matches: {', '.join(near)})"
+        return f" (close matches: {', '.join([*dict.fromkeys(near)][:3])})"
     if 0 < len(known) <= 12:
         return f" (known: {', '.join(known)})"
     return ""

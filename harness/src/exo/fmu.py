@@ -23,6 +23,7 @@ from numpy.typing import NDArray
 
 from exo.errors import FmuError, close_matches
 from exo.extraction import Extraction, opened
+from exo.folder import working
 from exo.messages import ENVIRONMENTS, MESSAGES, callbacks
 
 Kind = Literal["Real", "Integer", "Boolean"]
@@ -31,6 +32,8 @@ DTYPES: dict[Kind, type[np.generic]] = {"Real": np.float64, "Integer": np.int32,
 LARGEST, LARGEST_INTEGER = float(np.finfo(np.float64).max), int(np.iinfo(np.int32).max)
 #: Letters of another program's message.
 QUOTED = 400
+#: Letters of a number that is too large.
+SHOWN = 20
 STATUS = ("OK", "Warning", "Discard", "Error", "Fatal", "Pending")
 FATAL = STATUS.index("Fatal")
 DISCARD = STATUS.index("Discard")
@@ -44,7 +47,7 @@ def find_fmu_dir(given: Path | None = None) -> Path:
         return Path(given)
     if named := os.environ.get("EXO_FMU_DIR"):
         return Path(named)
-    here = Path.cwd()
+    here = working()
     for folder in (here, *here.parents):
         if (folder / "target" / "fmu").is_dir():
             return folder / "target" / "fmu"
@@ -137,7 +140,8 @@ class Archive:
         # What an input may be, NaN among it, the FMU says.
         is_input = variable.type == "Real" and variable.causality == "input"
         if not isinstance(value, str) and not is_input and not abs(value) <= largest:
-            raise FmuError(f"{where}: expected {variable.type} of at most {largest:g}, got {str(value)[:20]}")
+            got = str(value) if len(str(value)) <= SHOWN else f"{str(value)[:SHOWN]}…"
+            raise FmuError(f"{where}: expected a finite {variable.type} of at most {largest:g}, got {got}")
         if variable.causality not in ("parameter", "input"):
             raise FmuError(f"{where}: only parameters and inputs can be set, this is {variable.causality}")
         items = choices(variable)
@@ -235,7 +239,7 @@ class Instance:
         description = archive.description
         library = archive.library
         with _LOADING:
-            here = Path.cwd()
+            here = working()
             try:
                 self._slave: Any = FMU2Slave(
                     guid=description.guid,

@@ -24,6 +24,14 @@ METRICS = "metrics.json"
 BEFORE = ("metrics.json", "*.png", "signals/*.parquet", "signals/*.csv", "figures/*.parquet", "figures/*.csv")
 
 
+def working() -> Path:
+    """The working folder. ExoError, if it has been removed: nothing can be found or loaded from there."""
+    try:
+        return Path.cwd()
+    except FileNotFoundError:
+        raise ExoError("the working folder is not there any more; expected one that exists") from None
+
+
 def prepare(out: Path, scenarios: list[str]) -> None:
     """Refuses, before anything runs, a folder that cannot be written or whose contents are not exo's."""
     try:

@@ -9,9 +9,9 @@ import re
 from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
-from exo import derived, metrics
+from exo import derived, dimensions, metrics
 from exo.errors import FmuError, ScenarioError, close_matches
-from exo.fmu import Archive
+from exo.fmu import Archive, unit_of
 from exo.master import Plan
 from exo.paper import lookup
 from exo.profile import SAME_INSTANT
@@ -57,6 +57,7 @@ def check(
             for name in _texts(metric.arguments.values()):
                 if name.split(".", 1)[0] in (*of, DERIVED) and "." in name:
                     _recorded(name, plans[case], of, computed, owner)
+            _unit(metric, of, owner)
             if not shortened and (window := empty_window(metric, plans[case])):
                 raise ScenarioError(f"{owner}: {window}")
     for case, plan in plans.items():
@@ -76,6 +77,20 @@ def one_run(*, plan: Plan, archives: Mapping[str, Archive], owner: str) -> None:
     of = {name: archives[archive] for name, archive in plan.components.items()}
     _parameters(plan, of, owner)
     _wires(plan, of, owner)
+
+
+def _unit(metric: Metric, of: Mapping[str, Archive], owner: str) -> None:
+    """Refuses a number that would be told in another unit than that of the column that it is taken from."""
+    if metric.function not in metrics.IN_ITS_UNIT:
+        return
+    given = metric.arguments.get("columns", metric.arguments.get("column", ()))
+    for name in [given] if isinstance(given, str) else given:
+        component, _, variable = str(name).partition(".")
+        if component not in of or variable not in of[component].variables:
+            continue  # a derived signal
+        unit = unit_of(of[component].variable(variable))
+        if dimensions.names_differ(unit, metric.unit):
+            raise ScenarioError(f"{owner}: unit: got {metric.unit}, and {name} is in {unit}; expected {unit}")
 
 
 def empty_window(metric: Metric, plan: Plan) -> str:
@@ -129,7 +144,10 @@ def _parameters(plan: Plan, of: Mapping[str, Archive], owner: str) -> None:
         component, name = key.split(".", 1)
         if component not in of:
             raise ScenarioError(f"{owner}: {key}: no component {component}{close_matches(component, of)}")
-        of[component].start_value(name, value)
+        try:
+            of[component].start_value(name, value)
+        except FmuError as error:
+            raise FmuError(f"{owner}: {error}") from error
         if key in plan.inputs:
             raise ScenarioError(
                 f"{owner}: {key} = {value} has no effect, because it is wired to {plan.inputs[key]}; "
@@ -158,6 +176,11 @@ def _wires(plan: Plan, of: Mapping[str, Archive], owner: str) -> None:
             raise FmuError(
                 f"{owner}: {key}: {of[component].path.name}: {output}: expected {article} {kinds[1]} output, "
                 f"this is {origin.causality} of type {origin.type}"
+            )
+        if dimensions.differ(of[component], origin, of[to], variable):
+            raise FmuError(
+                f"{owner}: {key} is in {unit_of(variable)}, {source} in {unit_of(origin)}; expected one unit, because "
+                "nothing converts it"
             )
 
 

@@ -36,6 +36,21 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     group.addoption("--exo-engine", default=None, help="fmpy or native; else native where it is installed")
 
 
+def pytest_configure(config: pytest.Config) -> None:
+    """Refuses options that no test could run with, before any does."""
+    fmu_dir, engine = config.getoption("--exo-fmu-dir"), config.getoption("--exo-engine")
+    if fmu_dir is not None and not fmu_dir.is_dir():
+        raise pytest.UsageError(f"--exo-fmu-dir {fmu_dir}: no such folder; expected the folder of the archives")
+    if engine is not None:
+        from exo.errors import ExoError  # noqa: PLC0415
+        from exo.loop import named  # noqa: PLC0415
+
+        try:
+            named(engine)
+        except ExoError as error:
+            raise pytest.UsageError(str(error).replace("--engine", "--exo-engine")) from error
+
+
 def pytest_collect_file(file_path: Path, parent: pytest.Collector) -> pytest.Collector | None:
     if file_path.name != "requirements.toml" and not file_path.name.endswith(".requirements.toml"):
         return None
@@ -120,14 +135,14 @@ class File(pytest.File):
 
     def collect(self) -> "Iterator[Item]":
         from exo.errors import ExoError  # noqa: PLC0415
-        from exo.requirements import load  # noqa: PLC0415
+        from exo.requirements import check, load, scenario_of  # noqa: PLC0415
 
         try:
             requirements = load(self.path)
+            check(requirements, self.path)
             for name, one in requirements.requirements.items():
                 for key, shown in one.shown.items():
-                    beside = self.path.parent / f"{shown.scenario}.toml"
-                    scenario = _scenario(str(beside) if beside.is_file() else shown.scenario)
+                    scenario = scenario_of(shown, self.path.parent)
                     for case in shown.meant(tuple(case.id for case in scenario.cases)):
                         yield Item.from_parent(
                             self, name=f"{name}.{key}[{case}]", requirements=requirements, scenario=scenario, case=case
@@ -186,12 +201,6 @@ def _fmu_dir(config: pytest.Config) -> Path:
     from exo.fmu import find_fmu_dir  # noqa: PLC0415
 
     return find_fmu_dir(config.getoption("--exo-fmu-dir"))
-
-
-def _scenario(name: str) -> "Scenario":
-    from exo import scenario  # noqa: PLC0415
-
-    return scenario.load(name)
 
 
 def _experiment(config: pytest.Config, scenario: "Scenario", case: str) -> Any:

@@ -3,7 +3,10 @@
 from collections.abc import Iterator
 from typing import Any
 
-from pydantic import ValidationError
+from pydantic import BaseModel, ValidationError
+
+from exo.errors import close_matches
+from exo.known_keys import keys_at
 
 #: Problems of one file that are told, and letters of a value in them.
 TOLD, QUOTED = 20, 200
@@ -11,13 +14,13 @@ TOLD, QUOTED = 20, 200
 ANY_VALUE = {"bool", "int", "float", "str"}
 
 
-def sentences(error: ValidationError, origin: str, data: Any) -> list[str]:
-    """`data` are the tables that were read, `origin` is the file's name."""
+def sentences(error: ValidationError, origin: str, data: Any, kind: type[BaseModel]) -> list[str]:
+    """`data` are the tables that were read as a `kind`, `origin` is the file's name."""
     found: dict[str, str] = {}
     for problem in error.errors(include_url=False):
         key = ".".join(_steps(problem, data))
         where = f"{origin}: {key}" if key else origin
-        told = f"{where}: {_told(problem)}"
+        told = f"{where}: {_told(problem, kind)}"
         # A value of several possible types comes once for each of them.
         found.setdefault(where if problem["loc"][-1:] and problem["loc"][-1] in ANY_VALUE else told, told)
     lines = list(found.values())
@@ -25,10 +28,11 @@ def sentences(error: ValidationError, origin: str, data: Any) -> list[str]:
     return lines[:TOLD] + more
 
 
-def _told(problem: Any) -> str:
+def _told(problem: Any, kind: type[BaseModel]) -> str:
     match problem["type"]:
         case "extra_forbidden":
-            return f"unknown key, with value {_quoted(problem)}; expected one of the known keys"
+            known = close_matches(str(problem["loc"][-1]), keys_at(kind, problem["loc"]))
+            return f"unknown key, with value {_quoted(problem)}{known}"
         case "missing":
             return "missing; expected a value"
         case "value_error":

@@ -351,7 +351,7 @@ def _from_data(data: dict[str, Any], *, origin: str, folder: Traversable | None)
         # By way of JSON, where strict validation takes arrays for tuples.
         return Scenario.model_validate_json(json.dumps(data, default=str))
     except ValidationError as error:
-        raise ScenarioError("\n".join(refused.sentences(error, origin, data))) from error
+        raise ScenarioError("\n".join(refused.sentences(error, origin, data, Scenario))) from error
     except RecursionError:
         raise ScenarioError(
             f"{origin}: nested too deeply; expected tables and arrays as in docs/scenarios.md"
@@ -372,6 +372,8 @@ def load(name: str) -> Scenario:
             raise ScenarioError(f"{name}: no such scenario file")
         return parse(text=expansion.text_of(path, origin=path.name), origin=path.name, folder=path.parent)
     known = built_in()
+    if name not in known and (Path(name).suffix or Path(name).exists()):
+        raise ScenarioError(f"{name}: expected the path of a TOML file, which ends in .toml, or an id of `exo list`")
     if name not in known:
         raise ScenarioError(f"unknown scenario {name}{close_matches(name, known)}")
     file = known[name]

@@ -7,6 +7,7 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
+from exo.api.frozen import Picklable
 from exo.api.shown import SHOWN, columns
 from exo.errors import FmuError, close_matches
 from exo.fmu import Archive, choices, find_fmu_dir, unit_of
@@ -19,7 +20,7 @@ SHORT = ("name", "causality", "type", "unit", "start", "description")
 
 
 @dataclass(frozen=True, kw_only=True)
-class Variable:
+class Variable(Picklable):
     """A variable as the FMU's description declares it."""
 
     name: str
@@ -41,7 +42,7 @@ class Variable:
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
-class Fmu:
+class Fmu(Picklable):
     """An FMU for co-simulation, FMI 2.0: what `exo.load` gives. `fmu["q"]` is a variable."""
 
     path: Path
@@ -157,6 +158,8 @@ def load(fmu: str | PathLike[str], *, fmu_dir: str | PathLike[str] | None = None
 def _found(path: Path, fmu_dir: Path | None) -> Path:
     if path.is_file() and fmu_dir is None:
         return path
+    if path.name and path.is_dir():
+        raise FmuError(f"{path}: is a folder; expected an FMU")
     try:
         folder = find_fmu_dir(fmu_dir)
     except FmuError:

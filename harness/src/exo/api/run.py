@@ -2,7 +2,7 @@
 
 import json
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from fnmatch import translate
 from os import PathLike
@@ -16,6 +16,7 @@ import pyarrow.parquet
 from numpy.typing import NDArray
 
 from exo import export, recording
+from exo.api.frozen import Picklable, read_only
 from exo.api.shown import SHOWN, columns
 from exo.errors import ExoError, close_matches
 from exo.folder import signal_files
@@ -33,9 +34,10 @@ SHORT = ("signal", "unit", "smallest", "largest")
 ELEMENT = re.compile(r"(.+)\[(\d+)\]")
 
 
-@dataclass(frozen=True, kw_only=True, repr=False)
-class Run:
-    """Signals of one run: outputs and wired inputs of all components, by `component.name`. `run["plant.q"]` is one.
+@dataclass(frozen=True, kw_only=True, repr=False, eq=False)
+class Run(Picklable):
+    """Signals of one run: outputs and wired inputs of all components, by `component.name`. `run["plant.q"]` is one, and
+    a loop over the run goes over their names. The arrays are read only: `run["plant.q"].copy()` can be changed.
 
     Row k belongs to the tick t_k = k · step: sampled outputs are those of tick k, continuous outputs those at t_k,
     inputs those that acted from t_k on. All signals have the shape `(steps,)`.
@@ -54,13 +56,23 @@ class Run:
     #: Of parameters that are choices, the item's name.
     choices: Mapping[str, str]
 
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "time", read_only(self.time))
+        seen = {name: read_only(values) for name, values in self.signals.items()}
+        object.__setattr__(self, "signals", MappingProxyType(seen))
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        super().__setstate__(state)
+        # Arrays that come from another process can be written.
+        self.__post_init__()
+
     @classmethod
     def of(cls, run: Recording, *, name: str) -> Self:
         """A recording as a run."""
         return cls(
             name=name,
             time=run.time,
-            signals=MappingProxyType(dict(run.columns)),
+            signals=run.columns,
             units=MappingProxyType({TIME: "s", **{key: run.units.get(key, "") for key in run.columns}}),
             parameters=MappingProxyType(dict(run.parameters)),
             choices=MappingProxyType(dict(run.choices)),
@@ -75,11 +87,17 @@ class Run:
         """A signal. ExoError names close matches, if there is none."""
         try:
             return self.signals[name]
-        except KeyError:
+        except (KeyError, TypeError):
             raise ExoError(f"{self.name}: no signal {name}{close_matches(name, self.signals)}") from None
 
     def __contains__(self, name: object) -> bool:
         return name in self.signals
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.signals)
+
+    def __len__(self) -> int:
+        return len(self.signals)
 
     def names(self, *patterns: str) -> list[str]:
         """Names of the signals that match: a name, `plant.p[1..3]`, or `plant.*`; all without a pattern.
@@ -92,6 +110,8 @@ class Run:
         return list(found) if patterns else list(self.signals)
 
     def _matching(self, pattern: str) -> list[str]:
+        if not isinstance(pattern, str):
+            raise ExoError(f"{self.name}: got {pattern!r:.60}; expected names or patterns, one argument each")
         if set("*?") & set(pattern):
             # Brackets are those of an array's element.
             wanted = re.compile(translate(pattern.replace("[", "[[]")))
@@ -131,11 +151,11 @@ class Run:
 
         names = self.names(*patterns)
         variables: dict[str, Any] = {}
-        coordinates: dict[str, Any] = {TIME: (TIME, self.time, {"units": "s"})}
+        coordinates: dict[str, Any] = {TIME: (TIME, self.time.copy(), {"units": "s"})}
         for name, members in _arrays(names, self.signals).items():
             attributes = {"units": self.units[members[0]]}
             if members == [name]:
-                variables[name] = (TIME, self.signals[name], attributes)
+                variables[name] = (TIME, self.signals[name].copy(), attributes)
                 continue
             along = f"element_{len(members)}"
             coordinates[along] = np.arange(1, len(members) + 1)
@@ -230,7 +250,7 @@ def read_run(path: str | PathLike[str], *, case: str | None = None) -> Run:
     return Run(
         name=place.stem,
         time=time,
-        signals=MappingProxyType(columns),
+        signals=columns,
         units=MappingProxyType({TIME: "s", **{name: units.get(name, "") for name in columns}}),
         parameters=MappingProxyType(about.get("parameters", {})),
         choices=MappingProxyType(about.get("choices", {})),

@@ -1,11 +1,14 @@
 """One run: of a system that was coupled in Python, or of a scenario's case."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from contextlib import AbstractContextManager, ExitStack, nullcontext
 from dataclasses import replace
 from os import PathLike
 from pathlib import Path
 from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
 
 from exo import derived, loop, preflight, trial
 from exo import scenario as scenarios
@@ -48,7 +51,7 @@ def simulate(
     duration: float | None = None,
     step: float | None = None,
     inputs: Mapping[str, Signal] | None = None,
-    parameters: Mapping[str, Value | list[Any]] | None = None,
+    parameters: Mapping[str, Value | np.generic | Sequence[Any] | NDArray[Any]] | None = None,
     engine: Engine | None = None,
     real_time: bool = False,
     fmu_dir: str | PathLike[str] | None = None,
@@ -61,8 +64,9 @@ def simulate(
     `inputs`: by `"plant.tau_h"`, in the input's unit, one of: a number, which is held; a function of the time, called
     with all instants at once (s, shape `(steps,)`); an array of shape `(steps,)`, a value for each step; segments as in
     a scenario's profile, `[{"kind": "sine", "amplitude": 5.0, "frequency": 0.4}]`. `"plant.f_h[1..3]"` stands for three
-    inputs and takes `(steps, 3)`, too. `parameters`: start values by `"controller.K"`; choices by name or number;
-    `"controller.K[1..3]"` sets three.
+    inputs and takes `(steps, 3)`, too. What is given to a wired input takes the wire's place.
+
+    `parameters`: start values by `"controller.K"`; choices by name or number; `"controller.K[1..3]"` sets three.
 
     `engine` is `native` or `fmpy`, with equal numbers; native where it is installed, if left out. `real_time` makes
     the steps by the clock. `fmu_dir` is where a scenario's archives are looked for.
@@ -142,6 +146,10 @@ def _timed(of: Plan, *, step: float | None) -> Plan:
 
 
 def _set(of: Plan, parameters: Mapping[str, Any]) -> Plan:
+    if not isinstance(parameters, Mapping):
+        raise ScenarioError(
+            f'parameters: got a value of type {type(parameters).__name__}; expected {{"controller.K": 20.0}}'
+        )
     plain = plain_values(parameters, where="parameters")
     try:
         values = expand_values(plain)

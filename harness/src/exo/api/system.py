@@ -10,6 +10,7 @@ from typing import Any, get_args
 
 from exo import preflight
 from exo.api.fmu import Fmu, load
+from exo.api.frozen import Picklable
 from exo.errors import ScenarioError, close_matches
 from exo.fmu import Archive
 from exo.naming import elements, expand_wires
@@ -21,7 +22,7 @@ COMPONENT = re.compile(r"[A-Za-z_]\w*")
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
-class System:
+class System(Picklable):
     """Coupled FMUs: what `exo.couple` gives and `exo.simulate` runs."""
 
     #: By component name, in the order in which they step.
@@ -74,9 +75,11 @@ def couple(
     output of type Real turns its sign over. `step` (s) may be left out where FMUs propose one and none another.
     `coupling` is `zero_delay` (each sees what those before it have just put out), `one_sample_delay` (the same, but
     inputs in `delayed` come a step later) or `exchange_at_once` (all outputs are read before anything steps).
+    Nothing is iterated: an input whose source steps later, or is of the same FMU, gets what that put out a step before.
     `record` names variables that are no outputs, to be recorded as well: `"plant.x"`, `"plant.p[1..3]"`.
 
-    ScenarioError for a name or wire that does not fit; FmuError for a file, or variables that cannot be wired.
+    ScenarioError for a name or wire that does not fit; FmuError for a file, or variables that cannot be wired, such as
+    those of two units.
     """
     if not isinstance(fmus, Mapping) or not fmus:
         raise ScenarioError(f'couple: got {fmus!r:.80}; expected FMUs by name, as {{"plant": "Testbed.fmu"}}')
@@ -99,6 +102,10 @@ def couple(
     for name in system.delayed:
         if name not in system.wires:
             raise ScenarioError(f"delayed: {name}: no wired input{close_matches(name, system.wires)}")
+    late = coupling == "one_sample_delay"
+    if late != bool(system.delayed):
+        told = "without delayed inputs it is zero_delay" if late else "delayed inputs belong to one_sample_delay"
+        raise ScenarioError(f"coupling {coupling!r} with delayed = {[*system.delayed]}: {told}; expected both or none")
     preflight.one_run(plan=plan_of(system, duration=system.step), archives=archives_of(system), owner="couple")
     return system
 
@@ -124,6 +131,10 @@ def archives_of(system: System) -> dict[str, Archive]:
 
 
 def _wires(wires: Mapping[str, str], fmus: Mapping[str, Fmu]) -> dict[str, str]:
+    if not isinstance(wires, Mapping):
+        raise ScenarioError(
+            f'wires: got a value of type {type(wires).__name__}; expected {{"plant.tau_a": "controller.tau_a"}}'
+        )
     for target, source in wires.items():
         for name in (target, source):
             component, dot, variable = str(name).removeprefix(MINUS if name is source else "").partition(".")
@@ -138,8 +149,12 @@ def _wires(wires: Mapping[str, str], fmus: Mapping[str, Fmu]) -> dict[str, str]:
 
 
 def _listed(what: str, names: Iterable[str]) -> tuple[str, ...]:
+    one_or_more = [names] if isinstance(names, str) else names
+    listed = [*one_or_more] if isinstance(one_or_more, Iterable) else [None]
+    if not all(isinstance(name, str) for name in listed):
+        raise ScenarioError(f"{what}: got {names!r:.60}; expected names as component.variable")
     try:
-        return tuple(one for name in ([names] if isinstance(names, str) else names) for one in elements(name))
+        return tuple(one for name in listed for one in elements(name))
     except ValueError as error:
         raise ScenarioError(f"{what}: {error}") from error
 

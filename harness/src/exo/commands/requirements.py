@@ -25,6 +25,8 @@ def list_requirements(
     """Lists requirements, formulas and the smallest margins in the results; exit code 1 when one is broken."""
     with sentences():
         data = required.built_in() if file is None else required.load(file)
+        if file is not None:
+            required.check(data, file, done=[one.parent.name for one in results.glob(f"*/{folder.METRICS}")])
         rows = list(_rows(data, results))
         if as_json:
             typer.echo(json.dumps(rows, indent=2, ensure_ascii=False))
@@ -56,7 +58,9 @@ def _print(data: Requirements, rows: list[dict[str, Any]]) -> None:
 def _rows(data: Requirements, results: Path) -> Any:
     for name, requirement in data.requirements.items():
         for key, shown in requirement.shown.items():
-            found = _of(results / shown.scenario / folder.METRICS, f"{PREFIX}{name}.{key}/")
+            every = _of(results / shown.scenario / folder.METRICS, f"{PREFIX}{name}.{key}/")
+            # A margin of a formula that has been changed since is no margin of this one.
+            found = {case: one for case, one in every.items() if one.get("because") == shown.formula}
             worst = min(found, key=lambda one: _badness(found[one])) if found else None
             yield {
                 "id": f"{name}.{key}",

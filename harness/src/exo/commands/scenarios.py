@@ -82,9 +82,9 @@ def run(
     What --set, --duration or --step change makes the verdicts that rest on it information.
     """
     with sentences(), ExitStack() as stack:
-        scenarios = [
-            selection.narrowed(one, cases=cases or (), duration=duration, step=step) for one in selection.load(names)
-        ]
+        whole = selection.load(names)
+        own = _required(requirements, whole)
+        scenarios = [selection.narrowed(one, cases=cases or (), duration=duration, step=step) for one in whole]
         own_file = any(name.endswith(".toml") for name in names)
         given = {key: value for key, value in (("duration", duration), ("step", step)) if value is not None}
         if c_precision is not None:
@@ -100,7 +100,7 @@ def run(
             csv=csv,
             engine=loop.named(engine),
             real_time=real_time,
-            own=(required.load(requirements),) if requirements is not None else (),
+            own=own,
             out=out,
             fmu_dir=fmu_dir,
             tell=lambda done, folder: screen.print_run(
@@ -138,6 +138,15 @@ def reproduce(
         path = report.write(out=out, scenarios=names)
         console.print(f"report: {path}", markup=False)
     raise typer.Exit(0 if passed else 1)
+
+
+def _required(file: Path | None, running: list[Scenario]) -> tuple[Requirements, ...]:
+    """Those of the user's file, which must say something of what runs."""
+    if file is None:
+        return ()
+    data = required.load(file)
+    required.check(data, file, running=running)
+    return (data,)
 
 
 def preset_settings(preset: Preset | None, data: Scenario) -> dict[str, str]:

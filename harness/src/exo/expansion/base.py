@@ -24,7 +24,7 @@ def text_of(file: Traversable, *, origin: str) -> str:
     if len(data) > MAX_BYTES:
         raise ScenarioError(f"{origin}: {len(data)} bytes; expected a scenario of at most {MAX_BYTES}")
     try:
-        return data.decode("utf-8")
+        return data.decode("utf-8-sig")  # some editors of Windows put a mark in front
     except UnicodeDecodeError as error:
         line = data.count(b"\n", 0, error.start) + 1
         byte = data[error.start]

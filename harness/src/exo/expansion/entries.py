@@ -74,6 +74,8 @@ def metrics(data: Any, *, axes: Axes, known: Entry, where: str) -> list[Entry]:
         if like is not None and str(like) not in models:
             raise ScenarioError(f"{place}.like: no metric {like}{close_matches(str(like), models)}")
         model = models.get(str(like or row.get("id")), {})
+        if not model and "id" in row and not {"function", "title", "unit", "source"} & set(row):
+            raise ScenarioError(f"{place}: no known metric of this id{close_matches(str(row.get('id')), models)}")
         metric = model | row
         if isinstance(model.get("arguments"), dict) and isinstance(row.get("arguments"), dict):
             metric["arguments"] = model["arguments"] | row["arguments"]

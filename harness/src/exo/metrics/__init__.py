@@ -16,10 +16,11 @@ keyword-only and SI. A window takes the ticks after ≤ t < before. What does no
 """
 
 from exo.metrics import basic, coupling, events, growth, impedance, response, theorems, wall
-from exo.metrics.registry import COMPONENTS, REGISTRY, call, check, complete, evaluate
+from exo.metrics.registry import COMPONENTS, IN_ITS_UNIT, REGISTRY, call, check, complete, evaluate
 
 __all__ = [
     "COMPONENTS",
+    "IN_ITS_UNIT",
     "REGISTRY",
     "basic",
     "call",

@@ -17,6 +17,13 @@ REGISTRY: dict[str, Function] = {}
 COMPONENTS = ("controller", "plant", "operator")
 
 
+#: Functions whose number is in the unit of their `column`, or of their `columns`.
+IN_ITS_UNIT = frozenset({
+    *("maximum", "minimum", "max_abs", "max_abs_while", "mean", "peak_to_peak", "least_peak_to_peak", "lowest_change"),
+    *("rise", "farthest", "largest_step"),
+})  # fmt: skip
+
+
 def metric(function: Function) -> Function:
     """Registers a function under its name."""
     REGISTRY[function.__name__] = function
@@ -61,7 +68,8 @@ def check(
     try:
         _signature(REGISTRY[function]).bind(None, **full)
     except TypeError as error:
-        raise ScenarioError(f"{owner}: {function}: {error}") from error
+        taken = [*_signature(REGISTRY[function]).parameters][1:]
+        raise ScenarioError(f"{owner}: {function}: {error}; it takes {', '.join(taken) or 'none'}") from error
     for name, value in full.items():
         wanted = _signature(REGISTRY[function]).parameters[name].annotation
         try:

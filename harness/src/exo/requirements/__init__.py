@@ -6,5 +6,17 @@
 
 from exo.requirements.document import Requirement, Requirements, Shown, built_in, load
 from exo.requirements.judged import PREFIX, results
+from exo.requirements.places import check, check_cases, scenario_of
 
-__all__ = ["PREFIX", "Requirement", "Requirements", "Shown", "built_in", "load", "results"]
+__all__ = [
+    "PREFIX",
+    "Requirement",
+    "Requirements",
+    "Shown",
+    "built_in",
+    "check",
+    "check_cases",
+    "load",
+    "results",
+    "scenario_of",
+]

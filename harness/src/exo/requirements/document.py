@@ -145,7 +145,7 @@ def built_in() -> Requirements:
 def load(path: Path) -> Requirements:
     """A file's; ScenarioError says what is wrong in it and where."""
     try:
-        text = path.read_text(encoding="utf-8")
+        text = path.read_text(encoding="utf-8-sig")
     except (OSError, UnicodeDecodeError) as error:
         raise ScenarioError(f"{path}: cannot be read: {error}") from error
     return _read(text, str(path))

@@ -3,6 +3,7 @@
 import re
 import sys
 import typing
+import warnings
 from collections.abc import Mapping
 from functools import cache
 from types import ModuleType
@@ -11,21 +12,25 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from exo.requirements import windows
+
 #: Words of rtamt's language; what else looks like a name is a signal.
 WORDS = frozenset({
     *("not", "and", "or", "implies", "iff", "xor", "rise", "fall", "always", "historically", "eventually", "once"),
-    *("until", "since", "next", "prev", "sqrt", "exp", "pow", "abs", "F", "G", "O", "H", "U", "S", "X", "Y"),
+    *("until", "unless", "since", "next", "prev", "sqrt", "exp", "pow", "abs", "F", "G", "O", "H", "U", "S", "X", "Y"),
     *("true", "false", "TRUE", "FALSE", "s", "ms", "us", "ns", "ps"),
 })  # fmt: skip
 NAME = re.compile(r"(?<![\w.])[A-Za-z]\w*")
-#: rtamt counts in whole units; a sample period is a whole number of these.
-UNIT, UNIT_S = "ns", 1e-9
+#: rtamt takes `x/y` for one name.
+JOINED = re.compile(r"[A-Za-z]\w*/\w*")
 
 
 def names(text: str) -> set[str]:
     """The signals of a formula; ValueError, if it is none."""
+    if joined := JOINED.search(text):
+        raise ValueError(f"formula {text!r}: {joined[0]} would be one name; expected spaces around /")
     found = {name for name in NAME.findall(text) if name not in WORDS}
-    _parsed(text, found, step=UNIT_S)
+    _parsed(text, found, step=None)
     return found
 
 
@@ -33,25 +38,37 @@ def robustness(text: str, signals: Mapping[str, NDArray[np.float64]], *, step: f
     """How far the formula is from breaking at the first sample, in the unit of its comparison; below 0 it is broken.
 
     `signals` have a number a sample, `step` seconds apart. NaN, where a signal has a number that is not finite: no
-    margin can be given then. ValueError, if the formula cannot be evaluated at this step.
+    margin can be given then. ValueError, if the formula cannot be evaluated at this step, or looks behind the end.
     """
     if not all(np.isfinite(values).all() for values in signals.values()):
         return float("nan")
-    spec = _parsed(text, signals, step=step)
+    spec, ahead = _parsed(text, signals, step=step)
     length = min(len(values) for values in signals.values())
+    if length < 2:
+        raise ValueError(f"formula {text!r}: one sample is left; expected two or more")
+    if ahead >= length:
+        raise ValueError(
+            f"formula {text!r} looks {ahead * step:g} s ahead and the run ends after {(length - 1) * step:g} s; "
+            "expected a longer run, or shorter windows"
+        )
     trace: dict[str, Any] = {name: values.tolist() for name, values in signals.items()}
     try:
-        return float(spec.evaluate({"time": list(range(length)), **trace})[0][1])
+        margin = float(spec.evaluate({"time": list(range(length)), **trace})[0][1])
     except Exception as error:  # rtamt raises what its visitors meet
         raise ValueError(f"formula {text!r}: {_sentence(error)}") from error
+    if not np.isfinite(margin):
+        raise ValueError(f"formula {text!r}: its margin is {margin:g}, because it looks at no sample")
+    return margin
 
 
-def _parsed(text: str, signals: Any, *, step: float) -> Any:
+def _parsed(text: str, signals: Any, *, step: float | None) -> tuple[Any, int]:
+    """rtamt's specification with windows in samples, and by how many it looks ahead."""
     spec = _rtamt().StlDiscreteTimeSpecification()
     for name in sorted(signals):
         spec.declare_var(name, "float")
     spec.unit = "s"
-    spec.set_sampling_period(round(step / UNIT_S), UNIT, 0.1)
+    # A sample a second: rtamt counts in whole nanoseconds, which a step need not be.
+    spec.set_sampling_period(1, "s", 0.1)
     spec.spec = text
     try:
         spec.parse()
@@ -59,7 +76,10 @@ def _parsed(text: str, signals: Any, *, step: float) -> Any:
         raise ValueError(
             f"formula {text!r}: {_sentence(error)}; expected signal temporal logic as rtamt reads it"
         ) from error
-    return spec
+    try:
+        return spec, max(windows.counted(node, step=step) for node in spec.ast.specs)
+    except ValueError as error:
+        raise ValueError(f"formula {text!r}: {error}") from error
 
 
 @cache
@@ -72,7 +92,10 @@ def _rtamt() -> Any:
         module = ModuleType("typing.io")
         module.TextIO = typing.TextIO  # type: ignore[attr-defined]
         sys.modules["typing.io"] = module
-    import rtamt  # noqa: PLC0415
+    with warnings.catch_warnings():
+        # Python 3.11 says of that import that it is deprecated: nothing that a user could mend.
+        warnings.simplefilter("ignore", DeprecationWarning)
+        import rtamt  # noqa: PLC0415
 
     return rtamt
 

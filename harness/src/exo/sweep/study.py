@@ -280,7 +280,7 @@ def load(name: str | Path) -> tuple[Study, Scenario]:
     except tomllib.TOMLDecodeError as error:
         raise ExoError(f"{path}: {error}; expected TOML") from error
     except ValidationError as error:
-        raise ExoError("\n".join(refused.sentences(error, str(path), data))) from error
+        raise ExoError("\n".join(refused.sentences(error, str(path), data, Study))) from error
     beside = path.parent / study.scenario
     name = str(beside) if study.scenario.endswith(".toml") else study.scenario
     return study, scenarios.load(name)
