@@ -6,8 +6,10 @@ import signal
 import socket
 import subprocess
 import sys
+import threading
 import time
 from collections.abc import Iterator
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -138,12 +140,14 @@ def free_port() -> int:
         return int(one.getsockname()[1])
 
 
-@pytest.mark.parametrize("port", ["closed", "silent"])
+@pytest.mark.parametrize("port", ["closed", "silent", "another program's"])
 def test_no_scheduler_is_one_sentence_within_ten_seconds(port: str, free_port: int) -> None:
     with socket.socket() as silent:
         silent.bind(("127.0.0.1", 0))
         silent.listen()
         address = f"tcp://127.0.0.1:{free_port if port == 'closed' else silent.getsockname()[1]}"
+        if port == "another program's":
+            threading.Thread(target=answer_as_a_web_server, args=(silent,), daemon=True).start()
         task: Any = None
         began = time.monotonic()
         with pytest.raises(ExoError) as caught:
@@ -184,6 +188,14 @@ def test_a_cluster_whose_last_worker_goes_ends_the_sweep_and_keeps_what_is_finis
         with pytest.raises(ExoError, match="no worker is left; what was finished is kept"):
             sweep.sweep(file, out=tmp_path / "out", scheduler=one.scheduler_address, fmu_dir=fmu_dir, tell=leave)
     assert list((tmp_path / "out" / "long" / "parts").glob("*.parquet"))
+
+
+def answer_as_a_web_server(listening: socket.socket) -> None:
+    """Until the socket is closed."""
+    with suppress(OSError):
+        while True:
+            came, _ = listening.accept()
+            came.sendall(b"HTTP/1.1 400 Bad Request\r\nContent-Length: 0\r\n\r\n")
 
 
 @pytest.mark.parametrize("address", ["", "http://127.0.0.1:1", "tcp://127.0.0.1:port"])
