@@ -6,6 +6,7 @@ import signal
 import socket
 import subprocess
 import sys
+import tempfile
 import threading
 import time
 from collections.abc import Iterator
@@ -15,7 +16,7 @@ from typing import Any
 
 import pytest
 
-from exo import sweep
+from exo import extraction, sweep
 from exo.errors import ExoError
 from exo.sweep import cluster as cluster_of
 from exo.sweep import store
@@ -66,6 +67,41 @@ def test_a_cluster_finds_the_same_and_a_killed_worker_is_no_loss(cluster: Any, f
     assert killed
     assert there.table[store.ROW].to_pylist() == list(range(LONG_ROWS))
     assert numbers(there.table) == numbers(here.table)
+
+
+#: A worker that runs one row and is killed.
+KILLED = """
+import os, pathlib, signal, sys
+from exo.sweep import apart, study, work
+found, scenario = study.load(sys.argv[1])
+task = work.Task("t", scenario, found.cases, found.metrics, None, None, None, {})
+names = ("Testbed.fmu", "TestbedController.fmu")
+archives = {name: (pathlib.Path(sys.argv[2]) / name).read_bytes() for name in names}
+_, done = apart.run_chunk_apart(task, [(0, found.rows()[0])], archives)
+assert done[0].outcome.error is None, done
+os.kill(os.getpid(), signal.SIGKILL)
+"""
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="signals")
+def test_what_a_killed_worker_has_left_is_removed_by_the_next_one(
+    study_file: Path, fmu_dir: Path, tmp_path: Path, monkeypatch: Any
+) -> None:
+    """The FMUs that came with its rows, too; and what somebody was ended at while he removed it."""
+    temporary = tmp_path / "temporary"
+    temporary.mkdir()
+    command = [sys.executable, "-c", KILLED, str(study_file), str(fmu_dir)]
+    killed = subprocess.run(command, env={**os.environ, "TMPDIR": str(temporary)}, check=False)
+    assert killed.returncode == -signal.SIGKILL
+    assert list(temporary.rglob("Testbed.fmu"))
+    (temporary / "exo-fmu-half" / "fmu").mkdir(parents=True)
+    monkeypatch.setattr(tempfile, "tempdir", str(temporary))
+    began = time.monotonic()
+    while list(temporary.iterdir()):
+        # The process beside the worker ends when it sees that the worker is gone.
+        assert time.monotonic() - began < 30.0, list(temporary.iterdir())
+        extraction.sweep()
+        time.sleep(0.1)
 
 
 @pytest.fixture
