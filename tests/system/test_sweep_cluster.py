@@ -6,14 +6,17 @@ import signal
 import socket
 import subprocess
 import sys
+import tempfile
+import threading
 import time
 from collections.abc import Iterator
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
 import pytest
 
-from exo import sweep
+from exo import extraction, sweep
 from exo.errors import ExoError
 from exo.sweep import cluster as cluster_of
 from exo.sweep import store
@@ -64,6 +67,41 @@ def test_a_cluster_finds_the_same_and_a_killed_worker_is_no_loss(cluster: Any, f
     assert killed
     assert there.table[store.ROW].to_pylist() == list(range(LONG_ROWS))
     assert numbers(there.table) == numbers(here.table)
+
+
+#: A worker that runs one row and is killed.
+KILLED = """
+import os, pathlib, signal, sys
+from exo.sweep import apart, study, work
+found, scenario = study.load(sys.argv[1])
+task = work.Task("t", scenario, found.cases, found.metrics, None, None, None, {})
+names = ("Testbed.fmu", "TestbedController.fmu")
+archives = {name: (pathlib.Path(sys.argv[2]) / name).read_bytes() for name in names}
+_, done = apart.run_chunk_apart(task, [(0, found.rows()[0])], archives)
+assert done[0].outcome.error is None, done
+os.kill(os.getpid(), signal.SIGKILL)
+"""
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="signals")
+def test_what_a_killed_worker_has_left_is_removed_by_the_next_one(
+    study_file: Path, fmu_dir: Path, tmp_path: Path, monkeypatch: Any
+) -> None:
+    """The FMUs that came with its rows, too; and what somebody was ended at while he removed it."""
+    temporary = tmp_path / "temporary"
+    temporary.mkdir()
+    command = [sys.executable, "-c", KILLED, str(study_file), str(fmu_dir)]
+    killed = subprocess.run(command, env={**os.environ, "TMPDIR": str(temporary)}, check=False)
+    assert killed.returncode == -signal.SIGKILL
+    assert list(temporary.rglob("Testbed.fmu"))
+    (temporary / "exo-fmu-half" / "fmu").mkdir(parents=True)
+    monkeypatch.setattr(tempfile, "tempdir", str(temporary))
+    began = time.monotonic()
+    while list(temporary.iterdir()):
+        # The process beside the worker ends when it sees that the worker is gone.
+        assert time.monotonic() - began < 30.0, list(temporary.iterdir())
+        extraction.sweep()
+        time.sleep(0.1)
 
 
 @pytest.fixture
@@ -138,12 +176,14 @@ def free_port() -> int:
         return int(one.getsockname()[1])
 
 
-@pytest.mark.parametrize("port", ["closed", "silent"])
+@pytest.mark.parametrize("port", ["closed", "silent", "another program's"])
 def test_no_scheduler_is_one_sentence_within_ten_seconds(port: str, free_port: int) -> None:
     with socket.socket() as silent:
         silent.bind(("127.0.0.1", 0))
         silent.listen()
         address = f"tcp://127.0.0.1:{free_port if port == 'closed' else silent.getsockname()[1]}"
+        if port == "another program's":
+            threading.Thread(target=answer_as_a_web_server, args=(silent,), daemon=True).start()
         task: Any = None
         began = time.monotonic()
         with pytest.raises(ExoError) as caught:
@@ -184,6 +224,14 @@ def test_a_cluster_whose_last_worker_goes_ends_the_sweep_and_keeps_what_is_finis
         with pytest.raises(ExoError, match="no worker is left; what was finished is kept"):
             sweep.sweep(file, out=tmp_path / "out", scheduler=one.scheduler_address, fmu_dir=fmu_dir, tell=leave)
     assert list((tmp_path / "out" / "long" / "parts").glob("*.parquet"))
+
+
+def answer_as_a_web_server(listening: socket.socket) -> None:
+    """Until the socket is closed."""
+    with suppress(OSError):
+        while True:
+            came, _ = listening.accept()
+            came.sendall(b"HTTP/1.1 400 Bad Request\r\nContent-Length: 0\r\n\r\n")
 
 
 @pytest.mark.parametrize("address", ["", "http://127.0.0.1:1", "tcp://127.0.0.1:port"])

@@ -1,5 +1,6 @@
 """Sweeps: every row once, whatever is killed."""
 
+import errno
 import os
 import signal
 import subprocess
@@ -106,6 +107,17 @@ def test_two_sweeps_do_not_mix(fmu_dir: Path, tmp_path: Path) -> None:
     finally:
         os.killpg(first.pid, signal.SIGKILL)
         first.communicate()
+
+
+def test_a_file_system_without_locks_is_not_taken_for_another_sweep(
+    study_file: Path, fmu_dir: Path, tmp_path: Path, monkeypatch: Any
+) -> None:
+    def lock(*_: Any, **__: Any) -> None:
+        raise OSError(errno.ENOLCK, os.strerror(errno.ENOLCK))
+
+    monkeypatch.setattr("exo.sweep.store.folder.lock", lock)
+    with pytest.raises(ExoError, match=r"small: cannot be locked: No locks available; expected --out on another file"):
+        sweep.sweep(study_file, out=tmp_path / "out", workers=1, fmu_dir=fmu_dir)
 
 
 def test_a_pool_that_breaks_as_rows_are_sent_loses_none(

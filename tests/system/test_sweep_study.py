@@ -72,6 +72,26 @@ def test_a_wrong_study_is_refused_by_name(old: str, new: str, said: str, fmu_dir
     assert "Traceback" not in answer.stderr
 
 
+def test_the_page_on_sweeps_runs_word_by_word(
+    fmu_dir: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Its batch, its study, and the number of runs that it says of each study that comes along."""
+    page = (Path(__file__).parents[2] / "docs" / "sweeps.md").read_text(encoding="utf-8")
+    batch, study = (re.search(rf"```{kind}\n(.*?)```", page, flags=re.DOTALL)[1] for kind in ("python", "toml"))
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("EXO_FMU_DIR", str(fmu_dir))
+    exec(batch, {})
+    assert "0.33" in capsys.readouterr().out
+    Path("study.toml").write_text(study, encoding="utf-8")
+    answer = exo("sweep", "study.toml", "--workers", 1)
+    assert answer.exit_code == 0, answer.output
+    assert answer.stdout == "results/sweeps/gain_and_mass/runs.parquet: 20 runs\nresults/sweeps/gain_and_mass/map.png\n"
+    told = dict(re.findall(r"^\| `(\w+)` \| ([\d ]+) \|", page, flags=re.MULTILINE))
+    assert {name: int(runs.replace(" ", "")) for name, runs in told.items()} == {
+        name: sweep.load(name)[0].size for name in sweep.built_in()
+    }
+
+
 @pytest.mark.parametrize("method", ["random", "latin_hypercube", "sobol"])
 def test_samples_are_spread_as_they_say_and_come_from_the_seed(method: str) -> None:
     rows = sampled(method).rows()

@@ -76,7 +76,7 @@ def test_a_step_that_is_discarded_is_located(one: Scenario, engine: loop.Engine,
     with batch(one, tmp_path, "-DDISCARD=0.05", engine=engine) as runs:
         error = runs.run({}).error
     assert error is not None
-    assert error.startswith("one: fmi2DoStep returned fmi2Discard")
+    assert error.startswith("one: case only: one: fmi2DoStep returned fmi2Discard")
     assert error.endswith("(step at t = 0.05 s)")
 
 

@@ -34,28 +34,46 @@ def opened(path: Path, stack: ExitStack) -> Contents:
     return contents
 
 
+class Place:
+    """A folder of its own below the system's temporary one, until `close`."""
+
+    def __init__(self) -> None:
+        """OSError, if it cannot be made."""
+        self._lock = -1
+        self.folder = Path(tempfile.mkdtemp(prefix=f".{PREFIX}"))
+        try:
+            self._lock = os.open(self.folder / LOCK, os.O_CREAT | os.O_RDWR)
+            if sys.platform != "win32":
+                fcntl.flock(self._lock, fcntl.LOCK_EX)
+            self.folder = self.folder.rename(self.folder.with_name(self.folder.name.removeprefix(".")))
+        except BaseException:
+            self.close()
+            raise
+
+    def close(self) -> None:
+        """Removes the folder."""
+        shutil.rmtree(self.folder, ignore_errors=True)
+        if self._lock >= 0:
+            os.close(self._lock)
+            self._lock = -1
+
+
 class Extraction:
     """The files of an archive in a folder of their own. Use with `with`."""
 
     def __init__(self, path: Path) -> None:
         self._path = path
-        self._root = Path()
-        self._lock = -1
+        self._place: Place | None = None
 
     @property
     def folder(self) -> Path:
-        """Where the files are."""
-        return self._root / "fmu"
+        """Where the files are, while they are."""
+        return (self._place.folder if self._place is not None else Path()) / "fmu"
 
     def __enter__(self) -> Self:
         sweep()
         try:
-            fresh = Path(tempfile.mkdtemp(prefix=f".{PREFIX}"))
-            self._root = fresh
-            self._lock = os.open(fresh / LOCK, os.O_CREAT | os.O_RDWR)
-            if sys.platform != "win32":
-                fcntl.flock(self._lock, fcntl.LOCK_EX)
-            self._root = fresh.rename(fresh.with_name(fresh.name.removeprefix(".")))
+            self._place = Place()
             with ExitStack() as stack:
                 opened(self._path, stack).extract(self.folder)
         except OSError as error:
@@ -74,11 +92,8 @@ class Extraction:
 
     def close(self) -> None:
         """Removes the folder."""
-        if self._root != Path():
-            shutil.rmtree(self._root, ignore_errors=True)
-        if self._lock >= 0:
-            os.close(self._lock)
-            self._lock = -1
+        if self._place is not None:
+            self._place.close()
 
 
 def sweep() -> None:
@@ -87,7 +102,12 @@ def sweep() -> None:
         return
     for folder in Path(tempfile.gettempdir()).glob(f"{PREFIX}*"):
         with suppress(OSError):
-            lock = os.open(folder / LOCK, os.O_RDWR | os.O_NOFOLLOW)
+            try:
+                lock = os.open(folder / LOCK, os.O_RDWR | os.O_NOFOLLOW)
+            except FileNotFoundError:
+                # Who removed it has been ended before it was done.
+                shutil.rmtree(folder, ignore_errors=True)
+                continue
             try:
                 fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
                 shutil.rmtree(folder, ignore_errors=True)

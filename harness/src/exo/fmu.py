@@ -5,7 +5,6 @@ NumPy buffers, because fmpy's convenience calls cost more than the models.
 """
 
 import os
-import re
 import threading
 from collections import deque
 from collections.abc import Mapping
@@ -14,7 +13,7 @@ from ctypes import byref, c_char_p, c_double, c_int, c_size_t, c_void_p
 from math import isfinite
 from pathlib import Path
 from types import TracebackType
-from typing import Any, Literal, Self
+from typing import Any, Self
 
 import fmpy
 import numpy as np
@@ -25,10 +24,10 @@ from exo.errors import FmuError, close_matches
 from exo.extraction import Extraction, opened
 from exo.folder import working
 from exo.messages import ENVIRONMENTS, MESSAGES, callbacks
+from exo.variables import DTYPES, Kind, References, choices, unit_of
 
-Kind = Literal["Real", "Integer", "Boolean"]
-#: How the values of each kind lie in memory.
-DTYPES: dict[Kind, type[np.generic]] = {"Real": np.float64, "Integer": np.int32, "Boolean": np.int32}
+__all__ = ["DTYPES", "Archive", "Instance", "Kind", "References", "choices", "find_fmu_dir", "unit_of"]
+
 LARGEST, LARGEST_INTEGER = float(np.finfo(np.float64).max), int(np.iinfo(np.int32).max)
 #: Letters of another program's message.
 QUOTED = 400
@@ -104,7 +103,7 @@ class Archive:
             known = close_matches(name, self.variables)
             raise FmuError(f"{self.path.name}: no variable {name}{known}") from None
 
-    def references(self, names: tuple[str, ...], kind: Kind) -> "References":
+    def references(self, names: tuple[str, ...], kind: Kind) -> References:
         """Value references of these variables, made once."""
         if (names, kind) not in self._references:
             self._references[names, kind] = References(self, [*names], kind)
@@ -161,19 +160,6 @@ class Archive:
         raise FmuError(f"{where}: expected {variable.type}, got {value!r}")
 
 
-def choices(variable: Any) -> dict[str, int]:
-    """Items by name: of an enumeration's type, or of an Integer whose description ends with them (": 1 one, 2 two")."""
-    if variable.type == "Enumeration":
-        return {str(item.name): int(item.value) for item in variable.declaredType.items}
-    listed = re.search(r": (\d+ \w+(?:, \d+ \w+)+)$", variable.description or "")
-    return {name: int(number) for number, name in (item.split() for item in listed[1].split(", "))} if listed else {}
-
-
-def unit_of(variable: Any) -> str:
-    """The unit of a variable or of its type; empty where neither has one."""
-    return str(variable.unit or getattr(variable.declaredType, "unit", None) or "")
-
-
 def _description(path: Path, *, strict: bool) -> tuple[Any, str]:
     """What fmpy reads of a co-simulation FMU, version 2.0, and what is wrong of it; empty, if nothing is."""
     problems = ""
@@ -199,22 +185,6 @@ def _said(error: Exception) -> str:
     """Another program's message in one line."""
     words = str(error).split()
     return type(error).__name__ if words in ([], ["None"]) else " ".join(words)[:QUOTED]
-
-
-class References:
-    """Value references of variables of one kind, ready for C, and where their values lie."""
-
-    def __init__(self, archive: Archive, names: list[str], kind: Kind) -> None:
-        self.names = names
-        self.kind: Kind = kind
-        self.array: NDArray[np.uint32] = np.array([archive.variable(n).valueReference for n in names], dtype=np.uint32)
-        self.address: int = self.array.ctypes.data
-        self.count = len(names)
-        #: The same as C takes them, made once.
-        self.arguments = c_void_p(self.address), c_size_t(self.count)
-
-    def __bool__(self) -> bool:
-        return bool(self.names)
 
 
 #: fmpy changes the working directory while it loads a library, which is one for all threads.

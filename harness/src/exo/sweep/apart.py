@@ -14,7 +14,6 @@ import threading
 from collections.abc import Mapping
 from contextlib import suppress
 from dataclasses import replace
-from pathlib import Path
 from typing import IO, Any
 
 from exo import extraction
@@ -41,10 +40,16 @@ def run_chunk_apart(task: Task, chunk: Chunk, archives: Mapping[str, bytes]) -> 
     """As `run_chunk`, of a task whose archives come with it, in the process that belongs to this thread."""
     if getattr(_OPEN, "id", None) != task.id:
         close()
-        _OPEN.place = tempfile.TemporaryDirectory(prefix="exo-sweep-")
-        folder = Path(_OPEN.place.name)
-        for name, data in archives.items():
-            (folder / name).write_bytes(data)
+        # Workers end without a word: what they leave is removed by the next one.
+        extraction.sweep()
+        try:
+            _OPEN.place = extraction.Place()
+            folder = _OPEN.place.folder
+            for name, data in archives.items():
+                (folder / name).write_bytes(data)
+        except OSError as error:
+            said = error.strerror or error
+            raise ExoError(f"a worker cannot write its FMUs to {tempfile.gettempdir()}: {said}") from error
         _OPEN.apart, _OPEN.id = Apart(replace(task, fmu_dir=folder)), task.id
     return _OPEN.apart.run(chunk)  # type: ignore[no-any-return]
 
@@ -52,7 +57,7 @@ def run_chunk_apart(task: Task, chunk: Chunk, archives: Mapping[str, bytes]) -> 
 def close() -> None:
     """Ends this thread's process and frees its folder."""
     _OPEN.id = None
-    for name, end in (("apart", "close"), ("place", "cleanup")):
+    for name, end in (("apart", "close"), ("place", "close")):
         if (found := getattr(_OPEN, name, None)) is not None:
             setattr(_OPEN, name, None)
             getattr(found, end)()

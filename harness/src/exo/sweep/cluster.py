@@ -100,7 +100,8 @@ def _client(scheduler: str) -> Any:
 
 
 def _reach(scheduler: str) -> None:
-    """TimeoutError or OSError, if no scheduler shakes hands. A `Client` waits for ever for a port that says nothing."""
+    """TimeoutError or OSError, if no scheduler shakes hands; ValueError, TypeError or AssertionError for what is no
+    address. A `Client` waits for ever for a port that says nothing."""
     distributed, answers = _dask(), queue_of.SimpleQueue[BaseException | None]()
 
     async def shake() -> None:
@@ -121,8 +122,12 @@ def _reach(scheduler: str) -> None:
         error = answers.get(timeout=ANSWER_S + LOOK_S)
     except queue_of.Empty:
         error = TimeoutError(f"silence for {ANSWER_S:g} s")
-    if error is not None:
+    if error is None:
+        return
+    if isinstance(error, (*_lost(), ValueError, TypeError, AssertionError)):
         raise error
+    # Whatever another program's answer has been read as.
+    raise OSError("what answers is another program") from error
 
 
 def _check(client: Any, scheduler: str) -> None:

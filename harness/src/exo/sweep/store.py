@@ -80,8 +80,11 @@ class Store:
             raise ExoError(f"{self.folder}: {error.strerror or error}; expected a folder to write to") from error
         try:
             self._lock = folder.lock(self.folder, wait=False)
-        except OSError as error:
+        except BlockingIOError as error:
             raise ExoError(f"{self.folder}: another sweep works here; expected its end, or another --out") from error
+        except OSError as error:
+            said = error.strerror or error
+            raise ExoError(f"{self.folder}: cannot be locked: {said}; expected --out on another file system") from error
         try:
             if self._fresh:
                 self._clear()

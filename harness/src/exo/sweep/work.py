@@ -16,7 +16,7 @@ from exo.sweep.store import Done
 Chunk = Sequence[tuple[int, Mapping[str, Value]]]
 #: Names of the numbers, and rows that have run.
 Kept = tuple[list[str], list[Done]]
-ENDED = "its process was ended twice; expected an FMU that returns"
+ENDED = "its process was ended twice; expected an FMU that returns, and enough memory for its run"
 
 
 @dataclass(frozen=True)
