@@ -316,6 +316,37 @@ def test_a_saved_run_is_read_as_it_was(pushed: exo.Run, tmp_path: Path) -> None:
         pushed.save(tmp_path / "file" / "push.csv")
 
 
+@pytest.mark.parametrize(
+    ("table", "said"),
+    [
+        ({"time": [0.0, 1.0], "s": ["a", "b"]}, "column s has 'a'; expected numbers, or true and false"),
+        ({"time": ["a", "b"], "s": [1.0, 2.0]}, "column time has 'a'; expected numbers"),
+        ({"time": [0.0, 1.0], "s": [True, None]}, "column s has None; expected numbers"),
+        ({"time": [0.0, 0.0], "s": [1.0, 2.0]}, "expected a column time that increases"),
+        ({"time": [0.0, float("nan")], "s": [1.0, 2.0]}, "expected a column time that increases"),
+        ({"t": [0.0, 1.0]}, "expected signals of a run: a column time of two rows or more"),
+    ],
+)
+def test_a_table_that_is_no_run_is_told_by_its_column(table: dict[str, Any], said: str, tmp_path: Path) -> None:
+    pd.DataFrame(table).to_parquet(tmp_path / "table.parquet")
+    with pytest.raises(exo.ExoError, match=said):
+        exo.read_run(tmp_path / "table.parquet")
+
+
+def test_a_batch_takes_what_a_simulation_takes(fmu_dir: Path) -> None:
+    tables = {"base": "testbed_wall", "title": "t", "about": "a", "source": "s", "duration": 1.0, "cases": {"a": {}}}
+    peak = {"title": "t", "unit": "m", "source": "s", "function": "max_abs", "arguments": {"column": "controller.e_nr"}}
+    tables["metrics"] = {"peak": peak}
+    given: Any = pd.DataFrame({"controller.K": np.array([10.0, 20.0])})
+    found = exo.batch(tables, given, cases="a", metrics="peak", fmu_dir=str(fmu_dir))["peak"].to_pylist()
+    for gain, value in zip((10.0, 20.0), found, strict=True):
+        run = exo.simulate(tables, parameters={"controller.K": gain}, fmu_dir=fmu_dir)
+        assert value == np.abs(run["controller.e_nr"]).max()
+    for wrong in (None, [10.0]):
+        with pytest.raises(exo.ScenarioError, match=r"parameters: got a value of type \w+; expected {"):
+            exo.batch(tables, wrong, fmu_dir=fmu_dir)  # type: ignore[arg-type]
+
+
 def test_a_run_is_read_from_the_folder_that_exo_run_leaves(fmu_dir: Path, tmp_path: Path) -> None:
     from commands import exo as command  # noqa: PLC0415
 
