@@ -1,4 +1,4 @@
-"""The keys that a table of a scenario file can have, for the message about one that it cannot have."""
+"""The keys that a table of a file can have, for the message about one that it cannot have."""
 
 from collections.abc import Iterator, Sequence
 from functools import cache
@@ -8,12 +8,14 @@ from pydantic import BaseModel
 
 
 def keys_at(whole: type[BaseModel], place: Sequence[int | str]) -> list[str]:
-    """The keys of the table in which `place` stands, those among them that are written in files only."""
+    """The keys of the table in which `place` stands; of a scenario those, too, that are written in files only."""
     model = whole
     for step in place[:-1]:
         field = model.model_fields.get(step) if isinstance(step, str) else None
         if field is not None:
             model = next(_models(field.annotation), model)
+    if whole.__name__ != "Scenario":
+        return [*model.model_fields]
     properties = _schema()["properties"] if model is whole else _schema()["$defs"][model.__name__]["properties"]
     return [*properties]
 
