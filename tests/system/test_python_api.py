@@ -158,6 +158,23 @@ def test_the_mass_accelerates_as_newton_says(fmu_dir: Path) -> None:
     assert np.abs(run["plant.q"] - expected).max() <= 6.0 / (2.0 * 4.0) * 8e-5 * 2.0 + 1e-12
 
 
+def test_a_system_shows_its_wires_its_free_inputs_and_a_step_that_does_not_fit(
+    testbed: exo.System, fmu_dir: Path
+) -> None:
+    lines = repr(testbed).splitlines()
+    assert lines[0] == "controller (TestbedController.fmu) → plant (Testbed.fmu), every 0.002 s, zero_delay"
+    assert "  controller.q = plant.q" in lines
+    assert "  plant.tau_h: at its start value" in lines
+    assert testbed.notes == ()
+    fmus = {"controller": fmu_dir / "TestbedController.fmu", "plant": fmu_dir / "Testbed.fmu"}
+    odd = exo.couple(fmus, wires=WIRES, step=0.0013)
+    (note,) = odd.notes
+    assert note.startswith("the step 0.0013 s does not divide controller.T = 0.002 s")
+    assert repr(odd).splitlines()[-1] == f"  note: {note}"
+    assert note in odd._repr_html_()
+    assert pd.read_html(StringIO(odd._repr_html_()))[0].shape == (11, 2)
+
+
 def test_arrays_are_wired_set_and_fed_at_once(fmu_dir: Path) -> None:
     fmus = {"controller": fmu_dir / "ArmController.fmu", "plant": fmu_dir / "ExoskeletonArm.fmu"}
     wires = {"controller.q[1..3]": "plant.q[1..3]", "plant.tau_a[1..3]": "controller.tau_a[1..3]"}
