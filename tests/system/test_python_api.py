@@ -380,8 +380,9 @@ def test_a_run_is_read_from_the_folder_that_exo_run_leaves(fmu_dir: Path, tmp_pa
         exo.read_run(tmp_path / "wall", case="passive_bounded_5")
     with pytest.raises(exo.ExoError, match=r"expected the folder of one scenario's results \(wall\)"):
         exo.read_run(tmp_path)
-    with pytest.raises(exo.ExoError, match="expected a Parquet file"):
-        exo.read_run(tmp_path / "wal")
+    for case in (None, WALL):
+        with pytest.raises(exo.ExoError, match="wal: no such file or folder; expected a Parquet file"):
+            exo.read_run(tmp_path / "wal", case=case)
 
 
 def test_scenarios_from_python_are_those_of_the_file(fmu_dir: Path) -> None:

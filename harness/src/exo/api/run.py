@@ -239,6 +239,8 @@ def read_run(path: str | PathLike[str], *, case: str | None = None) -> Run:
     place = Path(path)
     if place.is_dir():
         place = _file(place, case)
+    elif not place.exists():
+        raise ExoError(f"{place}: no such file or folder; expected a Parquet file, or a scenario's folder of results")
     elif case is not None:
         raise ExoError(f"{place}: is no folder of results; expected no case, got {case!r}")
     if not place.is_file() or place.suffix != ".parquet":
