@@ -350,20 +350,6 @@ def test_a_table_that_is_no_run_is_told_by_its_column(table: dict[str, Any], sai
         exo.read_run(tmp_path / "table.parquet")
 
 
-def test_a_batch_takes_what_a_simulation_takes(fmu_dir: Path) -> None:
-    tables = {"base": "testbed_wall", "title": "t", "about": "a", "source": "s", "duration": 1.0, "cases": {"a": {}}}
-    peak = {"title": "t", "unit": "m", "source": "s", "function": "max_abs", "arguments": {"column": "controller.e_nr"}}
-    tables["metrics"] = {"peak": peak}
-    given: Any = pd.DataFrame({"controller.K": np.array([10.0, 20.0])})
-    found = exo.batch(tables, given, cases="a", metrics="peak", fmu_dir=str(fmu_dir))["peak"].to_pylist()
-    for gain, value in zip((10.0, 20.0), found, strict=True):
-        run = exo.simulate(tables, parameters={"controller.K": gain}, fmu_dir=fmu_dir)
-        assert value == np.abs(run["controller.e_nr"]).max()
-    for wrong in (None, [10.0]):
-        with pytest.raises(exo.ScenarioError, match=r"parameters: got a value of type \w+; expected {"):
-            exo.batch(tables, wrong, fmu_dir=fmu_dir)  # type: ignore[arg-type]
-
-
 def test_a_run_is_read_from_the_folder_that_exo_run_leaves(fmu_dir: Path, tmp_path: Path) -> None:
     from commands import exo as command  # noqa: PLC0415
 

@@ -68,10 +68,7 @@ def signal_files(folder: Path) -> dict[str, Path]:
 
 @contextmanager
 def replaced(target: Path) -> Iterator[Path]:
-    """A new folder that takes the place of `target` where the block ends without an error.
-
-    ExoError, if something in it cannot be written.
-    """
+    """A new folder that takes the place of `target` where the block ends without an error."""
     target.parent.mkdir(parents=True, exist_ok=True)
     with locked(target.parent):
         _sweep(target)
@@ -82,10 +79,6 @@ def replaced(target: Path) -> Iterator[Path]:
         yield fresh
         with locked(target.parent):
             _swap(fresh, target)
-    except OSError as error:
-        # pyarrow's names no file, and this one's name would be that of the folder aside.
-        said = os.strerror(error.errno) if error.errno else " ".join(str(error).split())
-        raise ExoError(f"{target}: cannot be written: {said}; what was there stays") from error
     finally:
         shutil.rmtree(fresh, ignore_errors=True)
         if living is not None:

@@ -8,14 +8,14 @@ from pydantic import BaseModel
 
 
 def keys_at(whole: type[BaseModel], place: Sequence[int | str]) -> list[str]:
-    """The keys of the table in which `place` stands; of a scenario those, too, that are written in files only."""
+    """The keys of the table in which `place` stands; in scenario files also those that are written in files only."""
     model = whole
     for step in place[:-1]:
         field = model.model_fields.get(step) if isinstance(step, str) else None
         if field is not None:
             model = next(_models(field.annotation), model)
     if whole.__name__ != "Scenario":
-        return [*model.model_fields]
+        return [field.alias or name for name, field in model.model_fields.items()]
     properties = _schema()["properties"] if model is whole else _schema()["$defs"][model.__name__]["properties"]
     return [*properties]
 

@@ -9,7 +9,6 @@ from typing import Any
 
 import numpy as np
 import pyarrow as pa
-from numpy.typing import NDArray
 from pydantic import ValidationError
 
 from exo import scenario as scenarios
@@ -25,11 +24,8 @@ TIMES = ("duration", "step")
 Row = Mapping[str, Value]
 
 
-def rows_of(parameters: Mapping[str, Sequence[Value] | NDArray[Any]] | pa.Table) -> list[dict[str, Value]]:
+def rows_of(parameters: Mapping[str, Sequence[Value]] | pa.Table) -> list[dict[str, Value]]:
     """A table by columns as rows. ScenarioError, if the columns are not of one length, or hold what no row can set."""
-    if not hasattr(parameters, "keys") and not isinstance(parameters, pa.Table):
-        what = type(parameters).__name__
-        raise ScenarioError(f'parameters: got a value of type {what}; expected {{"controller.K": [10.0, 20.0]}}')
     if isinstance(parameters, pa.Table) and len(set(parameters.column_names)) < parameters.num_columns:
         raise ScenarioError(f"parameters: expected each column once, got {', '.join(parameters.column_names)}")
     given = parameters.to_pydict() if isinstance(parameters, pa.Table) else dict(parameters)

@@ -21,19 +21,16 @@ from collections.abc import Iterable, Mapping, Sequence
 from contextlib import ExitStack
 from dataclasses import dataclass
 from functools import partial
-from os import PathLike
 from pathlib import Path
 from types import TracebackType
 from typing import Any, Self
 
 import pyarrow as pa
-from numpy.typing import NDArray
 
 from exo import loop as loops
 from exo import metrics as measures
 from exo import preflight, selection, trial
 from exo import scenario as scenarios
-from exo.api.simulating import read_scenario
 from exo.errors import ExoError, ScenarioError, close_matches
 from exo.fmu import Archive, find_fmu_dir
 from exo.loop import Engine
@@ -47,28 +44,24 @@ FAILURE = "failure"
 
 
 def batch(
-    scenario: Scenario | str | PathLike[str] | Mapping[str, Any],
-    parameters: Mapping[str, Sequence[Value] | NDArray[Any]] | pa.Table,
+    scenario: Scenario | str,
+    parameters: Mapping[str, Sequence[Value]] | pa.Table,
     *,
-    cases: str | Iterable[str] = (),
-    metrics: str | Iterable[str] = (),
+    cases: Iterable[str] = (),
+    metrics: Iterable[str] = (),
     branch_at: float | None = None,
     engine: Engine | None = None,
-    fmu_dir: str | PathLike[str] | None = None,
+    fmu_dir: Path | None = None,
 ) -> pa.Table:
     """Runs the scenario once for each row; returns the rows with a column for each metric and `failure`.
 
-    `scenario` is what `exo.read_scenario` gives or takes; `parameters` are columns of one length by name, or a table of
-    pandas or Arrow; `cases` are ids or patterns, all cases without them; `metrics` are ids of
+    `scenario` is one, an id or a file; `cases` are ids or patterns, all cases without them; `metrics` are ids of
     metrics and ratios, all without them. `branch_at` (s) as above. `engine` is native where it is installed. A row that
     fails is a row with its reason in `failure`, and NaN for numbers.
     ScenarioError and FmuError name what is wrong with all rows: a key, a scenario, an archive.
     """
-    one = scenario if isinstance(scenario, Scenario) else read_scenario(scenario)
-    chosen, measured = ((names,) if isinstance(names, str) else names for names in (cases, metrics))
-    folder = None if fmu_dir is None else Path(fmu_dir)
     rows = rows_of(parameters)
-    with Batch(one, cases=chosen, metrics=measured, branch_at=branch_at, engine=engine, fmu_dir=folder) as runs:
+    with Batch(scenario, cases=cases, metrics=metrics, branch_at=branch_at, engine=engine, fmu_dir=fmu_dir) as runs:
         runs.check(rows)
         return table(rows, [runs.run(row) for row in rows], runs.names)
 

@@ -1,7 +1,7 @@
 /* The smallest FMI 2.0 co-simulation FMU: input u (reference 0), output y = u (reference 1). Written against the
  * standard's text, not against this project's exporter. Each macro breaks one thing:
- * CRASH, SIGNAL, NO_RESET, DISCARD, CHATTER, HANG, EXIT, FORK, LOUD, FLOOD, WARNS, ANY_GUID, NO_GUID, VERSION, EXTRA, HOME, INCOMPLETE, UNDEFINED, TEXT;
- * MARK names a file that is written when the library is loaded. */
+ * CRASH, SIGNAL, NO_RESET, DISCARD, CHATTER, HANG, EXIT, FORK, LOUD, FLOOD, WARNS, ANY_GUID, NO_GUID, VERSION, EXTRA, HOME, INCOMPLETE, UNDEFINED;
+ * MARK names a file that is written when the library is loaded. TEXT takes Strings. */
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
