@@ -1,7 +1,7 @@
 /* The smallest FMI 2.0 co-simulation FMU: input u (reference 0), output y = u (reference 1). Written against the
  * standard's text, not against this project's exporter. Each macro breaks one thing:
  * CRASH, SIGNAL, NO_RESET, DISCARD, CHATTER, HANG, EXIT, FORK, LOUD, FLOOD, WARNS, ANY_GUID, NO_GUID, VERSION, EXTRA, HOME, INCOMPLETE, UNDEFINED;
- * MARK names a file that is written when the library is loaded. TEXT takes Strings. */
+ * MARK names a file that is written when the library is loaded. */
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -124,7 +124,7 @@ ACCEPTED(fmi2Reset)
 REFUSED(fmi2GetInteger) REFUSED(fmi2GetBoolean) REFUSED(fmi2GetString)
 REFUSED(fmi2SetInteger) REFUSED(fmi2SetBoolean)
 #ifdef TEXT
-/* The output is the sum of the text's bytes. */
+/* TEXT: Strings are taken, and the output is the sum of the last one's bytes. */
 API int fmi2SetString(Component c, const unsigned *vr, size_t n, const char *const *value) {
   for (size_t i = 0; i < n; i++) {
     if (vr[i] < 2) return ERROR;
