@@ -148,6 +148,52 @@ def test_matlab_gets_structs_of_the_same_fields(results: Path, run: exo.Run, tmp
     assert (tmp_path / "push.mat").read_bytes().startswith(b"MATLAB 5.0 MAT-file")
 
 
+NUMBERS = [0.0, -0.0, np.nan, np.inf, -np.inf, 5e-324, 2.2250738585072014e-308, 1.7976931348623157e308, 0.1, 1e22, 1e-7]
+
+
+@pytest.mark.parametrize("rows", [1, len(NUMBERS)])
+def test_every_format_gives_every_number_back_by_its_bits(rows: int, tmp_path: Path) -> None:
+    """Those that a run rarely has, among them one row only, and a unit and a name that are not ASCII."""
+    asammdf = pytest.importorskip("asammdf", reason="optional: pip install asammdf")
+    numbers, time = np.array(NUMBERS[:rows]), np.arange(rows) * 0.002
+    counts = np.array([-(2**31), 2**31 - 1, *range(rows)][:rows], dtype=np.int32)
+    columns = {"größe.τ[1]": numbers, "plant.count": counts, "plant.on": counts % 2 == 1}
+    units = {"größe.τ[1]": "N·m", "plant.count": "1"}
+    table = recording.table(time=time, columns=columns, units=units, parameters={}, choices={})
+    files = {ending: export.write(table, tmp_path / f"a{ending}") for ending in (".csv", ".mat", ".mf4", ".parquet")}
+
+    with asammdf.MDF(files[".mf4"]) as file:
+        found = {name: file.get(name) for name in columns}
+    assert found["größe.τ[1]"].unit == "N·m"
+    assert found["größe.τ[1]"].samples.tobytes() == numbers.tobytes()
+    assert found["plant.count"].timestamps.tobytes() == time.tobytes()
+    assert np.array_equal(found["plant.count"].samples, counts)
+    assert np.array_equal(found["plant.on"].samples, columns["plant.on"])
+
+    matlab_file = scipy.io.loadmat(files[".mat"])
+    signals, names = matlab_file["signals"][0, 0], matlab_file["names"][0, 0]
+    fields = {str(names[field][0]): signals[field] for field in names.dtype.names}
+    assert set(fields) == set(columns)
+    for name, values in columns.items():
+        assert fields[name].shape == (rows, 1)
+        assert np.array_equal(fields[name][:, 0], values, equal_nan=values.dtype == np.float64), name
+    assert fields["größe.τ[1]"].tobytes() == numbers.tobytes()
+    assert fields["plant.count"].dtype == np.int32
+
+    frame = pd.read_parquet(files[".parquet"])
+    assert frame["größe.τ[1]"].to_numpy().tobytes() == numbers.tobytes()
+    assert frame.attrs["units"]["größe.τ[1]"] == "N·m"
+    assert list(frame.dtypes[1:]) == [np.float64, np.int32, bool]
+
+    with files[".csv"].open(encoding="utf-8", newline="") as file:
+        header, second, *lines = csv.reader(file)
+    assert (header, second) == (["time", *columns], ["s", "N·m", "1", ""])
+    # A cell without a number is NaN.
+    read = np.array([float(line[1]) if line[1] else np.nan for line in lines])
+    assert read.tobytes() == numbers.tobytes()
+    assert [line[2:] for line in lines] == [[str(count), str(count % 2)] for count in counts.tolist()]
+
+
 def test_names_of_matlab_are_valid_and_no_two_alike() -> None:
     long = "controller." + "x" * 80
     given = ["plant.p[1]", "plant.p_1", "plant.p[1,2]", "end", "2nd", "der(x)", "θ", long, long + "y"]

@@ -40,6 +40,34 @@ def test_an_fmu_whose_units_are_declared_nowhere_is_coupled_and_its_flaw_is_told
     assert np.array_equal(run["one.y"], run["one.u"])
 
 
+@pytest.mark.parametrize("engine", ENGINES)
+def test_a_string_is_set_at_the_start_and_is_nothing_that_a_wire_carries(engine: Engine, tmp_path: Path) -> None:
+    """As the file's name that many models of a table take."""
+    parts = plain(tmp_path, "-DTEXT")
+    for name, reference, causality in (("file", 2, "parameter"), ("say", 3, "input"), ("said", 4, "output")):
+        start = "" if causality == "output" else ' start="none"'
+        fixed = "fixed" if causality == "parameter" else "discrete"
+        parts.insert(
+            "ModelVariables",
+            f'<ScalarVariable name="{name}" valueReference="{reference}" causality="{causality}" variability="{fixed}">'
+            f"<String{start}/></ScalarVariable>",
+        )
+    path = parts.write(tmp_path)
+    for text in ("map.csv", "größe", ""):
+        run = exo.simulate(system(path), duration=0.1, parameters={"one.file": text}, engine=engine)
+        assert (run["one.y"] == sum(text.encode())).all()
+        held = exo.simulate(system(path), duration=0.1, inputs={"one.say": text}, engine=engine)
+        assert held["one.y"].tobytes() == run["one.y"].tobytes()
+    assert "one.said" not in run
+    both = {"one": path, "other": path}
+    with pytest.raises(FmuError, match=r"one\.say: a String takes no wire .*; expected a text, which is held"):
+        exo.couple(both, wires={"one.say": "other.said"}, step=0.01)
+    with pytest.raises(FmuError, match=r"one\.say: a String takes no wire and no signal"):
+        exo.simulate(system(path), duration=0.1, inputs={"one.say": 3.0})
+    with pytest.raises(FmuError, match="file: expected String, got 3"):
+        exo.simulate(system(path), duration=0.1, parameters={"one.file": 3})
+
+
 def test_what_is_no_description_at_all_is_refused_in_one_sentence(tmp_path: Path) -> None:
     for change in (b"", b"<fmiModelDescription/>", b"<a"):
         parts = plain(tmp_path)

@@ -158,6 +158,23 @@ def test_the_mass_accelerates_as_newton_says(fmu_dir: Path) -> None:
     assert np.abs(run["plant.q"] - expected).max() <= 6.0 / (2.0 * 4.0) * 8e-5 * 2.0 + 1e-12
 
 
+def test_a_system_shows_its_wires_its_free_inputs_and_a_step_that_does_not_fit(
+    testbed: exo.System, fmu_dir: Path
+) -> None:
+    lines = repr(testbed).splitlines()
+    assert lines[0] == "controller (TestbedController.fmu) → plant (Testbed.fmu), every 0.002 s, zero_delay"
+    assert "  controller.q = plant.q" in lines
+    assert "  plant.tau_h: at its start value" in lines
+    assert testbed.notes == ()
+    fmus = {"controller": fmu_dir / "TestbedController.fmu", "plant": fmu_dir / "Testbed.fmu"}
+    odd = exo.couple(fmus, wires=WIRES, step=0.0013)
+    (note,) = odd.notes
+    assert note.startswith("the step 0.0013 s does not divide controller.T = 0.002 s")
+    assert repr(odd).splitlines()[-1] == f"  note: {note}"
+    assert note in odd._repr_html_()
+    assert pd.read_html(StringIO(odd._repr_html_()))[0].shape == (11, 2)
+
+
 def test_arrays_are_wired_set_and_fed_at_once(fmu_dir: Path) -> None:
     fmus = {"controller": fmu_dir / "ArmController.fmu", "plant": fmu_dir / "ExoskeletonArm.fmu"}
     wires = {"controller.q[1..3]": "plant.q[1..3]", "plant.tau_a[1..3]": "controller.tau_a[1..3]"}
@@ -316,6 +333,23 @@ def test_a_saved_run_is_read_as_it_was(pushed: exo.Run, tmp_path: Path) -> None:
         pushed.save(tmp_path / "file" / "push.csv")
 
 
+@pytest.mark.parametrize(
+    ("table", "said"),
+    [
+        ({"time": [0.0, 1.0], "s": ["a", "b"]}, "column s has 'a'; expected numbers, or true and false"),
+        ({"time": ["a", "b"], "s": [1.0, 2.0]}, "column time has 'a'; expected numbers"),
+        ({"time": [0.0, 1.0], "s": [True, None]}, "column s has None; expected numbers"),
+        ({"time": [0.0, 0.0], "s": [1.0, 2.0]}, "expected a column time that increases"),
+        ({"time": [0.0, float("nan")], "s": [1.0, 2.0]}, "expected a column time that increases"),
+        ({"t": [0.0, 1.0]}, "expected signals of a run: a column time of two rows or more"),
+    ],
+)
+def test_a_table_that_is_no_run_is_told_by_its_column(table: dict[str, Any], said: str, tmp_path: Path) -> None:
+    pd.DataFrame(table).to_parquet(tmp_path / "table.parquet")
+    with pytest.raises(exo.ExoError, match=said):
+        exo.read_run(tmp_path / "table.parquet")
+
+
 def test_a_run_is_read_from_the_folder_that_exo_run_leaves(fmu_dir: Path, tmp_path: Path) -> None:
     from commands import exo as command  # noqa: PLC0415
 
@@ -332,8 +366,9 @@ def test_a_run_is_read_from_the_folder_that_exo_run_leaves(fmu_dir: Path, tmp_pa
         exo.read_run(tmp_path / "wall", case="passive_bounded_5")
     with pytest.raises(exo.ExoError, match=r"expected the folder of one scenario's results \(wall\)"):
         exo.read_run(tmp_path)
-    with pytest.raises(exo.ExoError, match="expected a Parquet file"):
-        exo.read_run(tmp_path / "wal")
+    for case in (None, WALL):
+        with pytest.raises(exo.ExoError, match="wal: no such file or folder; expected a Parquet file"):
+            exo.read_run(tmp_path / "wal", case=case)
 
 
 def test_scenarios_from_python_are_those_of_the_file(fmu_dir: Path) -> None:

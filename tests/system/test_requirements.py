@@ -2,6 +2,7 @@
 
 import json
 import math
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -66,6 +67,17 @@ def test_eventually_is_the_best_within_its_bounds_by_hand(late: int):
     best = max(x[:31]) - 1.0
     found = margin(one(text="eventually[0:0.3](x >= 1)"), recorded(plant__x=x))
     assert found == pytest.approx(best)
+
+
+@pytest.mark.parametrize("signal", ["plant.x", {"norm": ["plant.x", "plant.x"]}, {"largest": "plant.x"}])
+def test_a_margin_in_another_unit_than_its_signals_is_refused(signal: object):
+    run = replace(recorded(plant__x=np.zeros(5), plant__n=np.zeros(5)), units={"plant.x": "mm"})
+    with pytest.raises(
+        ScenarioError, match=r"requirement r\.s: case a: unit: got m, and x is in mm; expected one unit"
+    ):
+        margin(one(x=signal), run)
+    assert margin(one(text="always(1000 * x <= 1)", x=signal), run) == pytest.approx(1.0)
+    assert margin(one(x="plant.n"), run) == pytest.approx(1.0), "what has no unit is not compared"
 
 
 def test_a_number_that_is_not_finite_breaks_a_requirement():
@@ -161,6 +173,7 @@ def test_a_file_that_is_wrong_says_where(tmp_path: Path):
     for text, said in (
         ("[requirements", "end of a table"),
         ("[requirements]", "requirements"),
+        ("[requirements.r]\ntext='t'\nsorce='s'", r"requirements\.r\.sorce: unknown key, .* \(close matches: source"),
         ("a = 1979-05-27", "a"),
     ):
         path.write_text(text, encoding="utf-8")

@@ -28,6 +28,8 @@ from exo.variables import DTYPES, Kind, References, choices, unit_of
 
 __all__ = ["DTYPES", "Archive", "Instance", "Kind", "References", "choices", "find_fmu_dir", "unit_of"]
 
+#: A start value as C takes it: kind and number; or a text, which only start values can be.
+Start = tuple[Kind, float | int] | tuple[Literal["String"], str]
 LARGEST, LARGEST_INTEGER = float(np.finfo(np.float64).max), int(np.iinfo(np.int32).max)
 #: Letters of another program's message.
 QUOTED = 400
@@ -131,8 +133,8 @@ class Archive:
             raise FmuError(f"{self.path.name}: {name}: expected {variable.type}{finite}, got {value!r}") from None
         return value
 
-    def start_value(self, name: str, value: bool | int | float | str) -> tuple[Kind, float | int]:
-        """The C type and number for a start value, checked against type, causality and enumeration items."""
+    def start_value(self, name: str, value: bool | int | float | str) -> Start:
+        """The C type and number, or text, for a start value, checked against type, causality and enumeration items."""
         variable = self.variable(name)
         where = f"{self.path.name}: {name}"
         largest = LARGEST if variable.type == "Real" else LARGEST_INTEGER
@@ -147,6 +149,8 @@ class Archive:
         match variable.type, value:
             case "Boolean", bool():
                 return "Boolean", int(value)
+            case "String", str():
+                return "String", value
             case "Real", int() | float() if not isinstance(value, bool):
                 return "Real", float(value)
             case "Integer" | "Enumeration", str() | int() if items and not isinstance(value, bool):
@@ -204,7 +208,7 @@ class Instance:
         #: Each is looked up once: that takes as long as a dozen steps.
         self._functions: dict[str, Any] = {}
         #: Start values by name as they were set last, with kind and number.
-        self._starts: dict[str, tuple[bool | int | float | str, Kind, float | int]] = {}
+        self._starts: dict[str, tuple[bool | int | float | str, Start]] = {}
         self._callbacks = callbacks(self._environment)
         description = archive.description
         library = archive.library
@@ -329,8 +333,14 @@ class Instance:
 
     def set_start(self, name: str, value: bool | int | float | str) -> None:
         """Sets a parameter or an input by name; enumerations by item name or number."""
-        kind, number = self.archive.start_value(name, value)
-        self.write(References(self.archive, [name], kind), np.array([number], dtype=DTYPES[kind]))
+        self._set(name, self.archive.start_value(name, value))
+
+    def _set(self, name: str, start: Start) -> None:
+        if start[0] != "String":
+            self.write(References(self.archive, [name], start[0]), np.array([start[1]], dtype=DTYPES[start[0]]))
+            return
+        reference = np.array([self.archive.variable(name).valueReference], dtype=np.uint32)
+        self._call("fmi2SetString", c_void_p(reference.ctypes.data), c_size_t(1), byref(c_char_p(start[1].encode())))
 
     def set_starts(self, values: Mapping[str, bool | int | float | str]) -> None:
         """The same of many, those of one kind in one call."""
@@ -339,9 +349,12 @@ class Instance:
             known = self._starts.get(name)
             # Of many runs most set the very same values: checked once.
             if known is None or known[0] is not value:
-                known = self._starts[name] = (value, *self.archive.start_value(name, value))
-            _, kind, number = known
-            kinds.setdefault(kind, {})[name] = number
+                known = self._starts[name] = (value, self.archive.start_value(name, value))
+            start = known[1]
+            if start[0] == "String":
+                self._set(name, start)
+            else:
+                kinds.setdefault(start[0], {})[name] = start[1]
         for kind, numbers in kinds.items():
             self.write(self.archive.references(tuple(numbers), kind), np.array([*numbers.values()], dtype=DTYPES[kind]))
 

@@ -165,6 +165,8 @@ def _wires(plan: Plan, of: Mapping[str, Archive], owner: str) -> None:
                 f"{owner}: {of[to].path.name}: {name}: only inputs and tunables can be wired, this is {what}"
             )
         component, output = source.removeprefix(MINUS).split(".", 1)
+        if variable.type == "String":
+            raise FmuError(f"{owner}: {key}: a String takes no wire and no signal; expected a text, which is held")
         if source.startswith(MINUS) and variable.type != "Real":
             raise FmuError(f"{owner}: {key}: {source}: only a Real has a negative, this is of type {variable.type}")
         if component == PROFILE:

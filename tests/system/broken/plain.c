@@ -125,7 +125,20 @@ REFUSED(fmi2Reset)
 ACCEPTED(fmi2Reset)
 #endif
 REFUSED(fmi2GetInteger) REFUSED(fmi2GetBoolean) REFUSED(fmi2GetString)
-REFUSED(fmi2SetInteger) REFUSED(fmi2SetBoolean) REFUSED(fmi2SetString)
+REFUSED(fmi2SetInteger) REFUSED(fmi2SetBoolean)
+#ifdef TEXT
+/* TEXT: Strings are taken, and the output is the sum of the last one's bytes. */
+API int fmi2SetString(Component c, const unsigned *vr, size_t n, const char *const *value) {
+  for (size_t i = 0; i < n; i++) {
+    if (vr[i] < 2) return ERROR;
+    ((Instance *)c)->u = 0;
+    for (const unsigned char *letter = (const void *)value[i]; *letter; letter++) ((Instance *)c)->u += *letter;
+  }
+  return OK;
+}
+#else
+REFUSED(fmi2SetString)
+#endif
 REFUSED(fmi2GetFMUstate) REFUSED(fmi2SetFMUstate) REFUSED(fmi2FreeFMUstate)
 REFUSED(fmi2SerializedFMUstateSize) REFUSED(fmi2SerializeFMUstate) REFUSED(fmi2DeSerializeFMUstate)
 REFUSED(fmi2GetDirectionalDerivative) REFUSED(fmi2SetRealInputDerivatives) REFUSED(fmi2GetRealOutputDerivatives)

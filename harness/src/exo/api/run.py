@@ -30,6 +30,8 @@ if TYPE_CHECKING:
 
 #: What a short table has of each signal.
 SHORT = ("signal", "unit", "smallest", "largest")
+#: NumPy's kinds of what a signal can be: true and false, integers, floating point.
+NUMBERS = "biuf"
 #: `controller.p_n[2]`: an element of an array.
 ELEMENT = re.compile(r"(.+)\[(\d+)\]")
 
@@ -237,6 +239,8 @@ def read_run(path: str | PathLike[str], *, case: str | None = None) -> Run:
     place = Path(path)
     if place.is_dir():
         place = _file(place, case)
+    elif not place.exists():
+        raise ExoError(f"{place}: no such file or folder; expected a Parquet file, or a scenario's folder of results")
     elif case is not None:
         raise ExoError(f"{place}: is no folder of results; expected no case, got {case!r}")
     if not place.is_file() or place.suffix != ".parquet":
@@ -244,6 +248,12 @@ def read_run(path: str | PathLike[str], *, case: str | None = None) -> Run:
     columns = recording.read(place)
     if TIME not in columns or len(columns[TIME]) < 2:
         raise ExoError(f"{place}: expected signals of a run: a column {TIME} of two rows or more")
+    for name, values in columns.items():
+        if values.dtype.kind not in NUMBERS:
+            odd = next((one for one in values.tolist() if not isinstance(one, bool | int | float)), values.dtype)
+            raise ExoError(f"{place}: column {name} has {odd!r:.40}; expected numbers, or true and false")
+    if not (np.diff(columns[TIME]) > 0.0).all():
+        raise ExoError(f"{place}: expected a column {TIME} that increases")
     about = _about_of(place)
     units = recording.units_of(place)
     time = columns.pop(TIME)

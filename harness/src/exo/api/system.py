@@ -2,7 +2,7 @@
 
 import re
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import isfinite
 from os import PathLike
 from types import MappingProxyType
@@ -36,6 +36,8 @@ class System(Picklable):
     delayed: tuple[str, ...]
     #: Variables that are recorded besides outputs and wired inputs.
     recorded: tuple[str, ...]
+    #: What may be a slip, a sentence each: a step that does not divide a controller's sample period.
+    notes: tuple[str, ...] = ()
 
     @property
     def unwired(self) -> tuple[str, ...]:
@@ -48,15 +50,19 @@ class System(Picklable):
         rows = [f"{order}, every {self.step:g} s, {self.coupling}"]
         rows += [f"  {target} = {source}" for target, source in self.wires.items()]
         rows += [f"  {name}: at its start value" for name in self.unwired]
+        rows += [f"  note: {note}" for note in self.notes]
         return "\n".join(rows)
 
     def _repr_html_(self) -> str:
         """What a notebook shows."""
+        import html  # noqa: PLC0415
+
         import pandas as pd  # noqa: PLC0415
 
         rows = [*self.wires.items(), *((name, "(start value)") for name in self.unwired)]
         table = pd.DataFrame(rows, columns=["input", "source"])
-        return f"<p>{repr(self).splitlines()[0]}</p>{table.to_html(index=False)}"
+        notes = "".join(f"<p>{html.escape(note)}</p>" for note in self.notes)
+        return f"<p>{html.escape(repr(self).splitlines()[0])}</p>{table.to_html(index=False)}{notes}"
 
 
 def couple(
@@ -106,8 +112,9 @@ def couple(
     if late != bool(system.delayed):
         told = "without delayed inputs it is zero_delay" if late else "delayed inputs belong to one_sample_delay"
         raise ScenarioError(f"coupling {coupling!r} with delayed = {[*system.delayed]}: {told}; expected both or none")
-    preflight.one_run(plan=plan_of(system, duration=system.step), archives=archives_of(system), owner="couple")
-    return system
+    plan, archives = plan_of(system, duration=system.step), archives_of(system)
+    preflight.one_run(plan=plan, archives=archives, owner="couple")
+    return replace(system, notes=tuple(preflight.timing({"couple": plan}, archives)))
 
 
 def plan_of(system: System, *, duration: float) -> Plan:

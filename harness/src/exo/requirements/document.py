@@ -11,7 +11,8 @@ from typing import Annotated, Literal, Self
 
 from pydantic import BeforeValidator, Field, ValidationError, field_validator, model_validator
 
-from exo.errors import ScenarioError
+from exo.errors import ScenarioError, close_matches
+from exo.known_keys import keys_at
 from exo.naming import elements
 from exo.requirements import formula
 from exo.scenario import Data, Identifier, Line, NotNegative
@@ -159,6 +160,11 @@ def _read(text: str, where: str) -> Requirements:
     try:
         return Requirements.model_validate_json(json.dumps(data, default=str))
     except ValidationError as error:
-        first = error.errors()[0]
+        # A key that is misspelt is missing besides: the former says more.
+        first = min(error.errors(), key=lambda one: one["type"] != "extra_forbidden")
+        said = first["msg"].removeprefix("Value error, ")
+        if first["type"] == "extra_forbidden":
+            known = close_matches(str(first["loc"][-1]), keys_at(Requirements, first["loc"]))
+            said = f"unknown key, with value {first['input']!r:.80}{known}"
         place = ".".join(str(part) for part in first["loc"])
-        raise ScenarioError(f"{where}: {place}: {first['msg'].removeprefix('Value error, ')}") from error
+        raise ScenarioError(f"{where}: {place}: {said}") from error

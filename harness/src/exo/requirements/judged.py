@@ -1,8 +1,10 @@
 """Requirements of a scenario that has run, as results beside its metrics: the margin must be at least zero."""
 
 import math
+import re
 from collections.abc import Iterator, Mapping
 
+from exo.dimensions import names_differ
 from exo.errors import ExoError, ScenarioError
 from exo.overrides import void
 from exo.recording import Recording
@@ -11,6 +13,8 @@ from exo.requirements.document import Requirements, Shown
 from exo.scenario import Check
 from exo.verdict import Result, judge
 
+#: What makes another unit of those of the signals.
+ARITHMETIC = re.compile(r"[*/]|\b(sqrt|exp|pow)\b")
 #: What stands before `<requirement>.<key>/<case>` in a result's id.
 PREFIX = "requirement."
 
@@ -52,6 +56,11 @@ def _margin(shown: Shown, run: Recording, *, where: str) -> float:
         raise ScenarioError(
             f"{where}: at = {shown.at:g} s; expected a multiple of the step, {run.step:g} s, within the run"
         )
+    if not ARITHMETIC.search(shown.formula):
+        for name, one in shown.signals.items():
+            unit = trace.unit(one, run)
+            if unit and names_differ(unit, shown.unit):
+                raise ScenarioError(f"{where}: unit: got {shown.unit}, and {name} is in {unit}; expected one unit")
     try:
         signals = {name: trace.signal(one, run)[first:] for name, one in shown.signals.items()}
         return formula.robustness(shown.formula, signals, step=run.step)

@@ -35,5 +35,11 @@ def signal(of: Signal, run: Recording) -> Array:
     return total
 
 
+def unit(of: Signal, run: Recording) -> str:
+    """Its unit, where it has that of its columns; empty where that is not known."""
+    names = [of.column] if of.column is not None else of.norm or of.moved or (of.largest if of.over is None else None)
+    return run.units.get((names or [""])[0], "")
+
+
 def _column(name: str, run: Recording) -> Array:
     return np.asarray(run[name], dtype=np.float64)

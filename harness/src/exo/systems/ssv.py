@@ -78,6 +78,8 @@ def _grouped(
 def _written(part: Part, name: str, variable: Variable, value: Value) -> str:
     """The value as SSP writes it, checked by the FMI 2.0 archive."""
     kind, number = part.archive.start_value(name, value)
+    if kind == "String":
+        return str(number)
     # fmpy reads the text "false" as true.
     if kind == "Boolean" and not number:
         raise FmuError(f"{part.path.name}: {name}: a parameter set cannot say false, which fmpy takes for true")
