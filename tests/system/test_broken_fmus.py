@@ -36,6 +36,8 @@ HARMLESS = {
     "archive-backslash: a Windows path",
     "xml-declaration: no encoding in it",
     "xml-declaration: none",
+    "xml-declaration: XML 1.1",
+    "xml-mark: a byte order mark",
     "xml-encoding: Latin-1",
     "xml-encoding: UTF-16",
     "fmpy: an output is missing in Outputs",

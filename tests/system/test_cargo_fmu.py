@@ -167,7 +167,7 @@ def huge(folder: Path) -> None:
     [
         (
             loop,
-            r"a folder \(\S*/data/maps/(again|back) leads back to \S*/data: expected links that lead to no folder above",
+            r"a folder \(\S*/data/maps/(again|back) leads back to \S*/data: expected links that lead to no folder",
         ),
         (out, r"a folder \(\S*/data/package/data leads back to \S*/data: expected links"),
         (pipe, r"\S*/data/pipe is neither a file nor a folder: expected files and folders"),
