@@ -118,8 +118,9 @@ class Description:
         return () if declared is None else declared.items.keys()
 
     def size(self, variable: Variable) -> int | None:
-        """The number of a variable's elements before a structural parameter is changed; None when it is not said, or when
-        they are more than are read.
+        """The number of a variable's elements before a structural parameter is changed.
+
+        None when it is not said, and where they are more than are read.
         """
         extents = [self.extent(dimension) for dimension in variable.dimensions]
         total = prod(extent for extent in extents if extent is not None)
