@@ -27,9 +27,13 @@ def findings(data: bytes, file: str = DESCRIPTION) -> Iterator[Finding]:
     def doctype(*_: object) -> None:
         raise _DoctypeError
 
+    def declaration(version: str, encoding: str | None, _: int) -> None:
+        versions.append(version)
+        declared.append(encoding)
+
     parser = expat.ParserCreate()
     parser.StartDoctypeDeclHandler = doctype
-    parser.XmlDeclHandler = lambda version, encoding, _: (versions.append(version), declared.append(encoding))
+    parser.XmlDeclHandler = declaration
     try:
         parser.Parse(data, True)
     except _DoctypeError:
