@@ -12,13 +12,21 @@ import shutil
 import subprocess
 import zipfile
 from collections.abc import Iterable
+from ctypes import byref
 from dataclasses import dataclass
 from pathlib import Path
 
 import fmpy
 import pytest
 from fmpy.fmi1 import FMICallException
-from fmpy.fmi2 import FMU2Slave, fmi2CallbackFunctions, fmi2CallbackLoggerTYPE
+from fmpy.fmi2 import (
+    FMU2Slave,
+    fmi2CallbackAllocateMemoryTYPE,
+    fmi2CallbackFreeMemoryTYPE,
+    fmi2CallbackFunctions,
+    fmi2CallbackLoggerTYPE,
+)
+from fmpy.logging import addLoggerProxy
 
 from cargo_fmu import ROOT, cargo_fmu, environment
 
@@ -239,12 +247,15 @@ def test_a_step_that_would_seem_to_hang_is_refused_by_name_and_the_instance_goes
     said: list[str] = []
     logged = fmi2CallbackLoggerTYPE(lambda _, __, ___, ____, text: said.append(text.decode()))
     callbacks = fmi2CallbackFunctions(logger=logged)
+    callbacks.allocateMemory = fmi2CallbackAllocateMemoryTYPE(fmpy.calloc)
+    callbacks.freeMemory = fmi2CallbackFreeMemoryTYPE(fmpy.free)
+    addLoggerProxy(byref(callbacks))
     run = FMU2Slave(
         guid=description.guid,
         unzipDirectory=fmpy.extract(str(done.fmu)),
         modelIdentifier=description.coSimulation.modelIdentifier,
     )
-    run.instantiate(callbacks=callbacks)
+    run.instantiate(callbacks=callbacks, loggingOn=True)
     run.setupExperiment()
     run.enterInitializationMode()
     run.exitInitializationMode()
@@ -253,7 +264,7 @@ def test_a_step_that_would_seem_to_hang_is_refused_by_name_and_the_instance_goes
             run.doStep(0.0, step)
     run.doStep(0.0, STEP)
     run.freeInstance()
-    assert said == [
+    assert [text for text in said if "fmi2DoStep" in text] == [
         f"fmi2DoStep: communicationStepSize = {step} s, expected at most 100000.0 s (1e8 times the substep)"
         for step in ("100099.99999999999", "1e300")
     ]
