@@ -15,7 +15,7 @@ pub enum Error {
     ModelName(&'static str),
     /// The default experiment is not finite, ends before it starts, or has a step or tolerance that is not positive.
     #[error(
-        "default experiment: expected finite times, start < stop, step and tolerance > 0, got {0:?}"
+        "default experiment: expected finite times, start < stop, step and tolerance normal numbers > 0, got {0:?}"
     )]
     Experiment(Experiment),
     /// More rows than value references.

@@ -33,7 +33,18 @@ pub enum Refused {
 /// # Panics
 /// When postcard cannot write our own types: a programming error that the first test shows.
 pub fn bytes(interface: Result<&Interface, &Error>) -> Vec<u8> {
-    let interface = interface.map_err(ToString::to_string);
+    written(interface.map_err(ToString::to_string))
+}
+
+/// What a library hands over that cannot tell its interface, for this reason.
+///
+/// # Panics
+/// As [`bytes`].
+pub fn refusal(reason: String) -> Vec<u8> {
+    written(Err(reason))
+}
+
+fn written(interface: Result<&Interface, String>) -> Vec<u8> {
     postcard::to_allocvec(&(MARK, VERSION, interface)).expect("the types are serializable")
 }
 

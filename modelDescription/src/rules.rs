@@ -19,7 +19,8 @@ pub(crate) fn check_frame<D>(description: &Description<D>) -> Result<(), Error> 
         tolerance,
         step,
     } = description.experiment;
-    let positive = |value: f64| value.is_finite() && value > 0.0;
+    // Smaller ones are no step, not even for the exporter.
+    let positive = |value: f64| value.is_normal() && value > 0.0;
     if !is_model_name(description.name) {
         return Err(Error::ModelName(description.name));
     }

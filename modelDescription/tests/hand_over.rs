@@ -59,5 +59,10 @@ fn a_rule_that_the_declaration_breaks_is_handed_over_in_words() {
     let message = hand_over::read(hand_over::bytes(Err(&error)))
         .unwrap_err()
         .to_string();
-    assert_eq!(message, "model name my-plant: expected a C identifier");
+    assert!(
+        message.starts_with("model name \"my-plant\": expected a C identifier"),
+        "{message}"
+    );
+    let message = hand_over::read(hand_over::refusal("no start".to_owned())).unwrap_err();
+    assert_eq!(message.to_string(), "no start");
 }

@@ -348,6 +348,10 @@ fn the_default_experiment_goes_forward() {
             ..base.experiment
         },
         Experiment {
+            step: 1e-320,
+            ..base.experiment
+        },
+        Experiment {
             start: f64::NAN,
             ..base.experiment
         },

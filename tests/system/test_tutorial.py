@@ -12,11 +12,21 @@ import shutil
 import subprocess
 import zipfile
 from collections.abc import Iterable
+from ctypes import byref
 from dataclasses import dataclass
 from pathlib import Path
 
 import fmpy
 import pytest
+from fmpy.fmi1 import FMICallException
+from fmpy.fmi2 import (
+    FMU2Slave,
+    fmi2CallbackAllocateMemoryTYPE,
+    fmi2CallbackFreeMemoryTYPE,
+    fmi2CallbackFunctions,
+    fmi2CallbackLoggerTYPE,
+)
+from fmpy.logging import addLoggerProxy
 
 from cargo_fmu import ROOT, cargo_fmu, environment
 
@@ -212,13 +222,49 @@ def test_a_path_of_the_machine_in_the_model_is_named_and_no_archive_written(done
     assert not out.exists()
 
 
-def test_a_declaration_that_breaks_a_rule_is_named_by_its_row(done: Done) -> None:
+@pytest.mark.parametrize(
+    ("right", "wrong", "said"),
+    [
+        ('from = ["x_0"]', 'from = ["x_1"]', "x: initially_from x_1: expected an output"),
+        ("start = 1.0", 'start = panic!("no mass")', "panic in the start values: no mass at src/lib.rs:"),
+    ],
+)
+def test_a_declaration_that_breaks_a_rule_is_named_by_its_row(done: Done, right: str, wrong: str, said: str) -> None:
     source = done.package / "src" / "lib.rs"
     kept = source.read_text(encoding="utf-8")
     try:
-        source.write_text(kept.replace('from = ["x_0"]', 'from = ["x_1"]'), encoding="utf-8")
+        source.write_text(kept.replace(right, wrong), encoding="utf-8")
         run = cargo_fmu("describe", cwd=done.package, target=done.target)
     finally:
         source.write_text(kept, encoding="utf-8")
     assert run.returncode == 1
-    assert "error: library my_plant of my-plant: x: initially_from x_1: expected an output" in run.stderr
+    assert f"error: library my_plant of my-plant: {said}" in run.stderr
+    assert "backtrace" not in run.stderr
+
+
+def test_a_step_that_would_seem_to_hang_is_refused_by_name_and_the_instance_goes_on(done: Done) -> None:
+    description = fmpy.read_model_description(str(done.fmu))
+    said: list[str] = []
+    logged = fmi2CallbackLoggerTYPE(lambda _, __, ___, ____, text: said.append(text.decode()))
+    callbacks = fmi2CallbackFunctions(logger=logged)
+    callbacks.allocateMemory = fmi2CallbackAllocateMemoryTYPE(fmpy.calloc)
+    callbacks.freeMemory = fmi2CallbackFreeMemoryTYPE(fmpy.free)
+    addLoggerProxy(byref(callbacks))
+    run = FMU2Slave(
+        guid=description.guid,
+        unzipDirectory=fmpy.extract(str(done.fmu)),
+        modelIdentifier=description.coSimulation.modelIdentifier,
+    )
+    run.instantiate(callbacks=callbacks, loggingOn=True)
+    run.setupExperiment()
+    run.enterInitializationMode()
+    run.exitInitializationMode()
+    for step in (1e5 * 1.001, 1e300):
+        with pytest.raises(FMICallException):
+            run.doStep(0.0, step)
+    run.doStep(0.0, STEP)
+    run.freeInstance()
+    assert [text for text in said if "fmi2DoStep" in text] == [
+        f"fmi2DoStep: communicationStepSize = {step} s, expected at most 100000.0 s (1e8 times the substep)"
+        for step in ("100099.99999999999", "1e300")
+    ]

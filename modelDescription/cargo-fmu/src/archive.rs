@@ -160,7 +160,7 @@ pub fn describe(subject: &Subject) -> Outcome<Vec<String>> {
         let standard = Standard::of(&interface).find(|one| facts.fmi.contains(&Version::of(*one)));
         let standard = standard.unwrap_or(Standard::Fmi3);
         let xml = standard.description(&interface, Package::default());
-        describe::table(&xml).map_err(|error| Failure::Found(error.to_string()))
+        describe::table(&xml).map_err(Failure::Found)
     };
     subject.cdylibs.iter().map(table).collect()
 }

@@ -28,6 +28,12 @@ const RARE: [&str; 2] = ["maxSize", "mimeType"];
 
 type Attributes = BTreeMap<String, String>;
 
+/// Most bytes of a description that are read: that of 100 000 variables has 30 MB.
+const MOST_BYTES: u64 = 128 << 20;
+
+/// The only root that a description has.
+const ROOT: &str = "fmiModelDescription";
+
 /// The table of an archive.
 ///
 /// # Errors
@@ -42,27 +48,37 @@ pub fn archive(path: &Path) -> Outcome<String> {
     };
     let mut zip = zip::ZipArchive::new(file).map_err(|error| expected(error.to_string()))?;
     let mut xml = String::new();
-    let mut entry = zip
+    let entry = zip
         .by_name("modelDescription.xml")
         .map_err(|error| expected(error.to_string()))?;
-    entry.read_to_string(&mut xml).map_err(at(path))?;
-    table(&xml).map_err(|error| expected(error.to_string()))
+    let mut entry = entry.take(MOST_BYTES + 1);
+    entry
+        .read_to_string(&mut xml)
+        .map_err(|error| expected(format!("it cannot be read as UTF-8: {error}")))?;
+    if xml.len() as u64 > MOST_BYTES {
+        return Err(expected(format!("it has more than {MOST_BYTES} bytes")));
+    }
+    table(&xml).map_err(expected)
 }
 
 /// The table of a description.
 ///
 /// # Errors
-/// When it is no XML.
-pub fn table(xml: &str) -> Result<String, quick_xml::Error> {
+/// When it is no XML, or not that of a description.
+pub fn table(xml: &str) -> Result<String, String> {
     let (model, variables) = read(xml)?;
-    let told = |key: &str| model.get(key).map_or("", String::as_str);
+    let told = |key: &str| model.get(key).map(|text| shown(text)).unwrap_or_default();
     let mut text = format!("{} (FMI {})", told("modelName"), told("fmiVersion"));
     if !told("description").is_empty() {
         let _ = write!(text, ": {}", told("description"));
     }
     text.push_str("\n\n");
-    let cell =
-        |variable: &Attributes, column: &str| variable.get(column).cloned().unwrap_or_default();
+    let cell = |variable: &Attributes, column: &str| {
+        variable
+            .get(column)
+            .map(|text| shown(text))
+            .unwrap_or_default()
+    };
     let has = |column: &str| variables.iter().any(|one| one.contains_key(column));
     let columns = COLUMNS
         .iter()
@@ -93,21 +109,34 @@ pub fn table(xml: &str) -> Result<String, quick_xml::Error> {
     Ok(text)
 }
 
+/// A text on one line. What it has for a terminal is shown instead of done: an archive is anybody's.
+fn shown(text: &str) -> String {
+    let mut shown = String::with_capacity(text.len());
+    for letter in text.chars() {
+        if letter.is_control() {
+            shown.extend(letter.escape_default());
+        } else {
+            shown.push(letter);
+        }
+    }
+    shown
+}
+
 /// Attributes of the root, and of each variable; its type is among them.
-fn read(xml: &str) -> Result<(Attributes, Vec<Attributes>), quick_xml::Error> {
+fn read(xml: &str) -> Result<(Attributes, Vec<Attributes>), String> {
     let mut reader = Reader::from_str(xml);
     let (mut model, mut variables) = (Attributes::new(), Vec::<Attributes>::new());
     // The elements that are open.
     let mut path: Vec<String> = Vec::new();
     loop {
-        let event = reader.read_event()?;
+        let event = reader.read_event().map_err(|error| error.to_string())?;
         match &event {
             Event::Start(element) | Event::Empty(element) => {
                 let name = String::from_utf8_lossy(element.name().as_ref()).into_owned();
-                let inside: Vec<_> = path.iter().map(String::as_str).collect();
-                match inside.as_slice() {
+                match path.as_slice() {
+                    [] if name != ROOT => return Err(format!("its root is <{}>", shown(&name))),
                     [] => model = attributes(element)?,
-                    [_, "ModelVariables"] => {
+                    [_, list] if list == "ModelVariables" => {
                         let mut variable = attributes(element)?;
                         // FMI 3.0 names the element by the type.
                         if name != "ScalarVariable" {
@@ -115,7 +144,7 @@ fn read(xml: &str) -> Result<(Attributes, Vec<Attributes>), quick_xml::Error> {
                         }
                         variables.push(variable);
                     }
-                    [_, "ModelVariables", outer] => {
+                    [_, list, outer] if list == "ModelVariables" => {
                         if let Some(variable) = variables.last_mut() {
                             inner(variable, outer, &name, attributes(element)?);
                         }
@@ -129,7 +158,11 @@ fn read(xml: &str) -> Result<(Attributes, Vec<Attributes>), quick_xml::Error> {
             Event::End(_) => {
                 path.pop();
             }
-            Event::Eof => return Ok((model, variables)),
+            Event::Eof if model.is_empty() => return Err("it is empty".to_owned()),
+            Event::Eof => match path.last() {
+                Some(open) => return Err(format!("it ends within <{}>", shown(open))),
+                None => return Ok((model, variables)),
+            },
             _ => {}
         }
     }
@@ -163,12 +196,15 @@ fn inner(variable: &mut Attributes, outer: &str, name: &str, told: Attributes) {
     }
 }
 
-fn attributes(element: &BytesStart<'_>) -> Result<Attributes, quick_xml::Error> {
+fn attributes(element: &BytesStart<'_>) -> Result<Attributes, String> {
     let mut attributes = Attributes::new();
     for attribute in element.attributes() {
-        let attribute = attribute?;
+        let attribute = attribute.map_err(|error| error.to_string())?;
         let key = String::from_utf8_lossy(attribute.key.as_ref()).into_owned();
-        attributes.insert(key, attribute.unescape_value()?.into_owned());
+        let value = attribute
+            .unescape_value()
+            .map_err(|error| error.to_string())?;
+        attributes.insert(key, value.into_owned());
     }
     Ok(attributes)
 }
@@ -191,6 +227,37 @@ mod tests {
              F     Real     input      continuous   N     0.0         5    force\n\
              n     Integer  output\n"
         );
+    }
+
+    #[test]
+    fn what_is_no_description_is_named() {
+        for (xml, expected) in [
+            ("", "it is empty"),
+            ("<a><b>", "its root is <a>"),
+            (
+                "<fmiModelDescription modelName=\"a\"><b>",
+                "it ends within <b>",
+            ),
+        ] {
+            assert_eq!(table(xml), Err(expected.to_owned()));
+        }
+        let deep = format!(
+            "<fmiModelDescription modelName=\"a\">{}",
+            "<a>".repeat(1_000_000)
+        );
+        assert_eq!(table(&deep), Err("it ends within <a>".to_owned()));
+    }
+
+    #[test]
+    fn what_a_terminal_would_do_is_shown() {
+        let xml = "<fmiModelDescription modelName=\"a\u{1b}[2J\" description=\"b&#27;]0;\"><ModelVariables>\
+             <ScalarVariable name=\"x&#10;y\"/></ModelVariables></fmiModelDescription>";
+        let table = table(xml).unwrap();
+        assert!(
+            table.starts_with("a\\u{1b}[2J (FMI ): b\\u{1b}]0;\n"),
+            "{table}"
+        );
+        assert!(table.ends_with("\nx\\ny\n"), "{table}");
     }
 
     #[test]

@@ -15,8 +15,8 @@ impl<T: Copy + Into<f64> + fmt::Display + fmt::LowerExp> fmt::Display for Brief<
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self(value) = *self;
         let size = value.into().abs();
-        // Those between which Debug writes digits, too.
-        let long = size.is_finite() && size != 0.0 && !(1e-5..1e16).contains(&size);
+        // Up to sixteen digits before the point, and a tenth of a microsecond behind it.
+        let long = size.is_finite() && size != 0.0 && !(1e-7..1e16).contains(&size);
         if long {
             write!(f, "{value:e}")
         } else {
@@ -42,7 +42,7 @@ mod tests {
                 continue;
             }
             let text = std::format!("{}", Brief(value));
-            assert!(text.len() <= 24, "{text}");
+            assert!(text.len() <= 26, "{text}");
             assert_eq!(text.parse::<f64>().unwrap().to_bits(), value.to_bits());
         }
     }
@@ -53,10 +53,10 @@ mod tests {
             (0.0, "0"),
             (-0.0, "-0"),
             (1.0, "1"),
-            (0.000_08, "0.00008"),
+            (1e-7, "0.0000001"),
             (-1e15, "-1000000000000000"),
             (1e16, "1e16"),
-            (-2.5e-6, "-2.5e-6"),
+            (-2.5e-9, "-2.5e-9"),
             (f64::INFINITY, "inf"),
         ] {
             assert_eq!(std::format!("{}", Brief(value)), text);

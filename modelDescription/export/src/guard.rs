@@ -107,7 +107,7 @@ thread_local! {
 }
 
 /// Message and place of this thread's last panic.
-fn last_panic() -> String {
+pub(crate) fn last_panic() -> String {
     LAST_PANIC
         .try_with(|message| std::mem::take(&mut *message.borrow_mut()))
         .unwrap_or_default()

@@ -305,7 +305,7 @@ pub(crate) fn instance_name(name: Option<&str>) -> CString {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::access::Value;
+    use crate::value::Value;
     use crate::{Refusal, Step};
     use fmu_declaration::Variability::Continuous;
     use fmu_declaration::{Declare, Description, Experiment, Stepping, real, unit};

@@ -2,9 +2,9 @@
 //!
 //! FMI 2.0 has a value reference for each scalar, FMI 3.0 one for each row, which is that of its first element.
 
-use crate::access::Value;
 use crate::routes::{Both, Routes};
 use crate::slots::At;
+use crate::value::Value;
 use fmu_declaration::{Access, Place, Variable};
 
 /// The value reference of the clock that FMI 3.0's scheduled execution has; it has no row.

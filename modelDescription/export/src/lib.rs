@@ -31,6 +31,7 @@
 //! | [`guard`] | null, phase, panic, log, status | 2.1.3 |
 //! | [`instance`] | one instance: life cycle, variables, steps | 2.1.6, 2.1.7, 4.2.2 |
 //! | [`access`] | Get and Set by value reference | 2.1.7 |
+//! | `value` | what a row demands of a value | 2.1.7 |
 //! | `outputs` | nothing but finite numbers leaves a model | |
 //! | [`provenance`] | version and git hash, which every model has | |
 //! | `interface` | what `cargo fmu` reads, in a build for it alone | |
@@ -70,6 +71,7 @@ pub mod snapshot;
 mod stop;
 mod symbols;
 pub mod time;
+mod value;
 
 pub use clock::Clock;
 pub use fmu_declaration as declaration;

@@ -1,8 +1,8 @@
 //! No NaN and no infinity may leave a model, but for NaN where a row says so (a sensor's failure); and no more bytes than a row
 //! says.
 
-use crate::access::{Value as _, behind};
 use crate::model::Model;
+use crate::value::{Value as _, behind};
 use fmu_declaration::place::Finite;
 use fmu_declaration::{Access, Place, Variable};
 

@@ -3,13 +3,14 @@
 //!
 //! A list that leads nowhere, or to a value that is refused, goes the long way by slots and rows, which say why.
 
-use crate::access::{NoValue, Value as _, find};
+use crate::access::find;
 use crate::failure::Outcome;
 use crate::instance::Instance;
 use crate::kind::Kind;
 use crate::legality::Phase;
 use crate::model::Model;
 use crate::slots::interval;
+use crate::value::{NoValue, Value as _};
 use fmu_declaration::place::Point;
 use fmu_declaration::{Access, Variable};
 

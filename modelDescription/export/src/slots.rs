@@ -3,11 +3,11 @@
 //!
 //! What a slot does not know, or does not allow, goes the long way by the row, which says why.
 
-use crate::access::Value;
 use crate::instance::Instance;
 use crate::kind::Kind;
 use crate::legality::Phase;
 use crate::model::Model;
+use crate::value::Value;
 use fmu_declaration::description::SCALARS_PER_ROW;
 use fmu_declaration::{Access, Causality, IntegerType, Place, Variable};
 

@@ -201,3 +201,41 @@ pub fn elements(xml: &str) -> Vec<Element> {
         }
     }
 }
+
+/// The elements of the XML of FMI 2.0.
+pub fn written() -> Vec<Element> {
+    elements(&fmu_archive::xml(
+        &fmu_archive::Interface::of::<Subject>().expect("a legal declaration"),
+        PACKAGE,
+    ))
+}
+
+/// Where those of one path stand.
+pub fn under(all: &[Element], path: &str) -> Vec<usize> {
+    (0..all.len())
+        .filter(|&i| all[i].path == format!("fmiModelDescription/{path}"))
+        .collect()
+}
+
+/// Variables in order, with the element that says their type.
+pub fn variables(all: &[Element]) -> Vec<(&Element, &Element)> {
+    under(all, "ModelVariables/ScalarVariable")
+        .into_iter()
+        .map(|i| (&all[i], &all[i + 1]))
+        .collect()
+}
+
+/// The one of this name.
+pub fn variable<'a>(all: &'a [Element], name: &str) -> (&'a Element, &'a Element) {
+    variables(all)
+        .into_iter()
+        .find(|(v, _)| v.get("name") == Some(name))
+        .unwrap_or_else(|| panic!("no {name}"))
+}
+
+/// Numbers in a list.
+pub fn indices(text: &str) -> Vec<usize> {
+    text.split_whitespace()
+        .map(|word| word.parse().expect("an index"))
+        .collect()
+}

@@ -67,7 +67,10 @@ impl Model for ExoskeletonArm {
                 (false, false) => "payload released",
                 (false, true) => "payload lost: the bond broke",
             };
-            log.event(format_args!("{what} before t = {} s", Brief(step.t + step.h)));
+            log.event(format_args!(
+                "{what} before t = {} s",
+                Brief(step.t + step.h)
+            ));
         }
         if !(energy.residual.is_finite() && p.iter().all(|p| p.is_finite())) {
             return Err(Refusal(format!(

@@ -44,7 +44,10 @@ impl Model for ExoskeletonArms {
                 (false, false) => "payload released by both cups",
                 (false, true) => "payload lost: the bond of one cup broke, both are free",
             };
-            log.event(format_args!("{what} before t = {} s", Brief(step.t + step.h)));
+            log.event(format_args!(
+                "{what} before t = {} s",
+                Brief(step.t + step.h)
+            ));
         }
         let positions = [&shown.left, &shown.right]
             .into_iter()

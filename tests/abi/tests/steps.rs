@@ -90,6 +90,8 @@ fn a_wrong_communication_point_is_refused_with_both_times() {
             (0.0101, "got 0.0101 s"),
             (f64::NAN, "got NaN s"),
             (f64::INFINITY, "got inf s"),
+            (-1e300, "got -1e300 s"),
+            (2.5e-300, "got 2.5e-300 s"),
         ] {
             let parts = ["expected currentCommunicationPoint 0.01 s", text];
             refused(&instance, "fmi2DoStep", &parts, |i| i.step(t, 0.01));
@@ -178,6 +180,13 @@ fn an_experiment_that_cannot_be_is_refused() {
             (None, inf, None, "startTime = inf"),
             (None, 1.0, Some(0.5), "stopTime = 0.5"),
             (None, 0.0, Some(nan), "stopTime = NaN"),
+            (
+                None,
+                1e300,
+                Some(-1e300),
+                "stopTime = -1e300 s, expected at least startTime = 1e300 s",
+            ),
+            (Some(-1e300), 0.0, None, "tolerance = -1e300,"),
             (Some(nan), 0.0, None, "tolerance = NaN"),
             (Some(-1e-6), 0.0, None, "tolerance = -0.000001"),
         ] {

@@ -112,6 +112,19 @@ VARIABLES3 = [
     mutant("variable-start-calculated", "an output", edit(typed("steps"), start="0"), fmpy=True),
     mutant("variable-start-calculated", "time", edit(typed("time"), start="0"), fmpy=True),
     mutant("variable-start-count", "three for two", edit(typed("u"), start="0 0 0")),
+    mutant("variable-start-count", "an empty attribute", edit(typed("k"), start="")),
+    mutant(
+        "dimension-total", "more bytes than there are", insert(typed("k"), '<Dimension start="18446744073709551615"/>')
+    ),
+    mutant(
+        "dimension-total",
+        "of two that are not too large",
+        lambda p: (
+            p.insert(typed("k"), '<Dimension start="100000"/>'),
+            p.insert(typed("k"), '<Dimension start="100000"/>'),
+        ),
+    ),
+    mutant("dimension-total", "by a structural parameter", edit(typed("size"), start=str(1 << 40))),
     mutant("dimension-size", "both", edit(f"{typed('u')}/Dimension", start="2")),
     mutant("dimension-size", "neither", edit(f"{typed('u')}/Dimension", remove=("valueReference",)), fmpy=True),
     mutant("dimension-size", "none at all", edit(f"{typed('u')}/Dimension", remove=("valueReference",), start="0")),

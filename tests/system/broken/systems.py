@@ -280,6 +280,18 @@ MUTANTS = (
         "mapping mass → plant.M",
         "plant.M, as other",
     ),
+    Mutant(
+        "ssp-component-type",
+        in_default(DRIVE, DRIVE.replace(" source", ' type="application/x-fmu" source')),
+        "Component drive",
+        "type application/x-fmu",
+    ),
+    Mutant(
+        "ssp-component-type",
+        in_default(DRIVE, DRIVE.replace(" source", ' type="" source')),
+        "Component drive",
+        "type of no letters",
+    ),
     Mutant("ssp-experiment", in_default('stopTime="1.0"', 'stopTime="0.0"'), "DefaultExperiment", "from 0 to 0 s"),
     Mutant("ssp-component-fmu", _add(MASS, b"no archive"), "Component plant", "resources/Plant.fmu: it is no FMU"),
     Mutant(

@@ -1,5 +1,6 @@
 """The archive: read without trusting it. Nothing is extracted before all names and sizes have been checked."""
 
+import re
 import stat
 import zipfile
 import zlib
@@ -30,9 +31,13 @@ BACKSLASH = error("archive-backslash", "names use forward slashes")
 LENGTH = error(
     "archive-length", "no name is longer than 1000 bytes, and no part of one than 255: systems cannot extract it"
 )
-LINK = error("archive-link", "entries are files and folders, not links")
+LINK = error("archive-link", "entries are files and folders, not links, pipes or devices")
 ASCII = error("archive-ascii", "names are printable ASCII")
 CASE = error("archive-case", "names stay unique when case is folded, and no file is also a folder")
+WINDOWS = warning(
+    "archive-windows",
+    "Windows can have files of these names: no device, no sign that means something there, no blank or dot at the end",
+)
 EXTENSION = warning("archive-extension", "the file is called .fmu, an SSP archive .ssp")
 DESCRIBED = error(
     "archive-description", "modelDescription.xml, in an SSP archive SystemStructure.ssd, lies at the root"
@@ -47,6 +52,9 @@ MAX_RATIO, RATIO_FROM = 500, 1 << 20
 
 #: Longest part of a name: that of all common file systems. Longest name: leaves room for a folder before it.
 MAX_PART, MAX_NAME = 255, 1000
+#: Parts of names that Windows refuses or changes: its own devices, signs with a meaning, blanks and dots at the end.
+#: The parts `.` and `..` are the path's matter.
+FOREIGN = re.compile(r'(?i)^(con|prn|aux|nul|com\d|lpt\d)(\..*)?$|[<>"|?*:]|[^. ][. ]+$')
 #: What is wrong, yet does not hinder reading: the other rules are asked all the same.
 READABLE_STILL = frozenset((BACKSLASH.id, ASCII.id))
 
@@ -161,8 +169,13 @@ def _entry(entry: zipfile.ZipInfo, name: str) -> Iterator[Finding]:
     if longest > MAX_PART or _bytes(name) > MAX_NAME:
         value = f"{longest} bytes in one part, {_bytes(name)} in all"
         yield LENGTH.at(where, value, f"at most {MAX_PART} and {MAX_NAME} bytes")
-    if stat.S_ISLNK(entry.external_attr >> 16):
+    mode = entry.external_attr >> 16
+    if stat.S_ISLNK(mode):
         yield LINK.at(where, "a symbolic link", "a file")
+    elif stat.S_IFMT(mode) not in (0, stat.S_IFREG, stat.S_IFDIR):
+        yield LINK.at(where, "neither a file nor a folder", "a file")
+    if any(FOREIGN.search(part) for part in parts):
+        yield WINDOWS.at(where, name, "a name that Windows can have, too")
     if entry.flag_bits & 1:
         yield READABLE.at(where, "encrypted", "an entry that anybody can read")
     if entry.compress_type not in (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED):

@@ -1,6 +1,7 @@
 """Arrays of FMI 3.0: what a dimension's size is."""
 
 from collections.abc import Iterator
+from math import prod
 
 from exo.validate.description import Description
 from exo.validate.rule import Finding, error
@@ -12,6 +13,9 @@ REFERENCE = error(
     "a Dimension's valueReference is that of a UInt64 that is a structuralParameter or constant, and starts above 0",
     only="3.0",
 )
+TOTAL = error("dimension-total", "no array has more elements than any real FMU's, 2^28", only="3.0")
+#: Two gigabytes of Float64. An importer that believed more would run out of memory.
+MOST = 1 << 28
 SCALAR = error("dimension-none", "Clocks and structural parameters have no Dimension", only="3.0")
 
 
@@ -22,6 +26,10 @@ def findings(description: Description) -> Iterator[Finding]:
             yield SCALAR.at(variable.where, f"{variable.kind}, {variable.causality}, with dimensions", "a scalar")
         for dimension in variable.dimensions:
             yield from _dimension(description, dimension)
+        extents = [description.extent(dimension) for dimension in variable.dimensions]
+        total = prod(extent for extent in extents if extent is not None)
+        if total > MOST:
+            yield TOTAL.at(variable.where, f"{total} elements", f"at most {MOST}")
 
 
 def _dimension(description: Description, dimension: Dimension) -> Iterator[Finding]:

@@ -118,18 +118,23 @@ class Description:
         return () if declared is None else declared.items.keys()
 
     def size(self, variable: Variable) -> int | None:
-        """The number of a variable's elements before a structural parameter is changed; None when it is not said."""
-        sizes = [self._extent(dimension) for dimension in variable.dimensions]
-        return None if None in sizes else prod(size for size in sizes if size is not None)
+        """The number of a variable's elements before a structural parameter is changed.
 
-    def _extent(self, dimension: Dimension) -> int | None:
+        None when it is not said, and where they are more than are read.
+        """
+        extents = [self.extent(dimension) for dimension in variable.dimensions]
+        total = prod(extent for extent in extents if extent is not None)
+        return None if None in extents or total > MAX_SIZE else total
+
+    def extent(self, dimension: Dimension) -> int | None:
+        """How long it is before a structural parameter is changed; None when it is not said."""
         text: str | None = dimension.start
         if dimension.reference is not None:
             keys = integers(dimension.reference) or []
             sizer = self.by_reference.get(keys[0]) if len(keys) == 1 else None
             text = None if sizer is None else sizer.type.get("start")
         found = integers(text) or []
-        return found[0] if len(found) == 1 and 0 <= found[0] <= MAX_SIZE else None
+        return found[0] if len(found) == 1 and found[0] >= 0 else None
 
     def _scalar(self, index: int, element: etree._Element) -> Variable:
         """A `ScalarVariable` of FMI 2.0, whose kind is a child."""

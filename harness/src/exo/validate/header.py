@@ -11,6 +11,7 @@ from exo.validate.variable import number
 from exo.validate.versions import FMI3
 
 COSIMULATION = error("head-co-simulation", "the FMU offers co-simulation, or scheduled execution of FMI 3.0")
+NAME = error("head-model-name", "modelName is not empty")
 IDENTIFIER = error("head-model-identifier", "modelIdentifier is a C identifier")
 GUID = error("head-guid", "the guid, in FMI 3.0 the instantiationToken, is not empty")
 STATE = error("head-state", "an FMU state that can be serialized can also be got and set")
@@ -38,6 +39,8 @@ def findings(description: Description) -> Iterator[Finding]:
     if not description.token.strip():
         value = f"an empty {version.token}"
         yield GUID.at(place(root, "fmiModelDescription"), value, "a text that identifies the interface")
+    if not root.get("modelName", "").strip():
+        yield NAME.at(place(root, "fmiModelDescription"), "an empty modelName", "the model's name")
     interface = description.interface
     if interface is None:
         only = "model exchange only" if description.first("ModelExchange") is not None else "no interface"

@@ -14,7 +14,11 @@ START_FINITE = error("variable-start-finite", "a start value is finite")
 START_RANGE = error("variable-start-range", "a start value lies within min and max")
 START_ITEM = error("variable-start-item", "an Enumeration's start value is one of its items")
 START_CALCULATED = error("variable-start-calculated", "a calculated variable has no start value, not even an empty one")
-START_COUNT = error("variable-start-count", "an array has one start value, or one for each element", only="3.0")
+START_COUNT = error(
+    "variable-start-count",
+    "an array has one start value, or one for each element; an attribute start is not empty",
+    only="3.0",
+)
 BOUNDS = error("variable-bounds", "min is at most max")
 NOMINAL = error("variable-nominal", "nominal is not zero")
 
@@ -33,6 +37,8 @@ def findings(description: Description) -> Iterator[Finding]:
             yield NOMINAL.at(variable.where, "nominal 0", "the magnitude of the variable")
         starts = variable.starts or ()
         size = description.size(variable)
+        if variable.starts == ():
+            yield START_COUNT.at(variable.where, "an empty start", "a value")
         if starts and size is not None and len(starts) not in (1, size):
             yield START_COUNT.at(variable.where, f"{len(starts)} start values", f"1 or {size}")
         for start in starts:

@@ -15,6 +15,29 @@ enum Importer {
     Subtracts,
 }
 
+#[test]
+fn times_of_three_hundred_digits_are_said_in_few() {
+    let clock = Clock::at_start(0.0);
+    assert_eq!(
+        clock.step(1e300, 0.1),
+        Err("expected currentCommunicationPoint 0 s, got 1e300 s".to_owned())
+    );
+    let late = Clock::at_start(-1e300);
+    assert_eq!(
+        late.step(-1e300, 1e-300),
+        Err("communicationStepSize = 1e-300 s does not advance the time -1e300 s to a later finite time".to_owned())
+    );
+    let mut stepped = Clock::at_start(0.0);
+    stepped.advance(&stepped.step(0.0, 1e300).unwrap());
+    assert_eq!(
+        stepped.counted("ticks", 3, 1e-3),
+        Err(Refusal(
+            "ticks = 3, expected 1e303 periods of 0.001 s in the 1e300 s since the start"
+                .to_owned()
+        ))
+    );
+}
+
 /// Makes `steps` steps of `parts`/`of` periods `T` from `start_time` on and asserts after each that the samples are those
 /// that whole numbers give.
 fn runs(importer: Importer, start_time: f64, T: f64, [parts, of]: [u64; 2], steps: u64) {

@@ -33,13 +33,14 @@ from exo.validate.ssp.bindings import BOTH, Names, Parameter
 from exo.validate.ssp.document import ROOTS, Document, judged, parse
 from exo.validate.ssp.elements import Element
 from exo.validate.ssp.package import DEFAULT, MISSING, resolve
-from exo.validate.ssp.rule import RULES, error
+from exo.validate.ssp.rule import RULES, error, warning
 from exo.validate.workspace import workspace
 
 __all__ = ["RULES", "findings"]
 
 EXPERIMENT = error("experiment", "the default experiment ends after it begins")
 FMU = error("component-fmu", "the source of an FMU component is an FMU with a description that can be read")
+KIND = warning("component-type", "a component is an FMU, a description or an SSP archive: others are not judged")
 SYSTEM = error("component-system", "the source of a component that is a system is one")
 
 FMU_TYPE, SSD_TYPE, SSP_TYPE = (
@@ -156,6 +157,10 @@ class _Archive:
             self.found.append(SYSTEM.at(where, source, "a description, .ssd"))
         elif kind == SSP_TYPE:
             self.package(file)
+        elif kind != SSD_TYPE:
+            known = f"{FMU_TYPE}, {SSD_TYPE} or {SSP_TYPE}"
+            self.found.append(KIND.at(where, f"type {kind or 'of no letters'}", known))
+            self.skipped.append(f"{file}: a component of another type")
         return None
 
     def systems(self, document: Document) -> frozenset[str]:

@@ -1,6 +1,5 @@
 //! Variables by value reference: section 2.1.7.
 
-use crate::access::{NoText, boolean};
 use crate::ffi::fmi2::*;
 use crate::ffi::{array, array_mut, string};
 use crate::functions::known;
@@ -8,6 +7,7 @@ use crate::guard::guard;
 use crate::kind::{Number, fmi2 as kind};
 use crate::legality::fmi2::Function as F;
 use crate::model::Model;
+use crate::value::{NoText, boolean};
 use std::convert::Infallible;
 use std::ffi::CString;
 

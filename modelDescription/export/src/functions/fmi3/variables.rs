@@ -1,6 +1,5 @@
 //! Variables by value reference: section 2.2.6. A value reference stands for all elements of its row.
 
-use crate::access::{NoBytes, NoText, boolean};
 use crate::failure::Failure;
 use crate::ffi::fmi3::*;
 use crate::ffi::{array, array_mut, string};
@@ -10,6 +9,7 @@ use crate::instance::{Instance, refused};
 use crate::kind::{Kind, Number, fmi3 as kind};
 use crate::legality::fmi3::Function as F;
 use crate::model::Model;
+use crate::value::{NoBytes, NoText, boolean};
 use std::convert::Infallible;
 use std::ffi::CString;
 
