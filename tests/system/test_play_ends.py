@@ -10,6 +10,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from time import sleep
 from typing import Any
+from urllib.request import urlopen
 
 import pytest
 
@@ -19,13 +20,16 @@ pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="Windows sends n
 
 
 @contextmanager
-def playing(fmu_dir: Path, place: Path) -> Iterator[tuple[subprocess.Popen[str], str]]:
+def playing(
+    fmu_dir: Path, place: Path, *, browser: bool = False, env: dict[str, str] | None = None
+) -> Iterator[tuple[subprocess.Popen[str], str]]:
     """The command, and the address that it prints."""
     (place / "tmp").mkdir()
-    command = [sys.executable, "-m", "exo.cli", "play", "--no-browser", "--fmu-dir", str(fmu_dir)]
+    command = [sys.executable, "-m", "exo.cli", "play", "--fmu-dir", str(fmu_dir)]
+    command += [] if browser else ["--no-browser"]
     with subprocess.Popen(
         command, cwd=place, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
-        env={**os.environ, "TMPDIR": str(place / "tmp")},
+        env={**(os.environ if env is None else env), "TMPDIR": str(place / "tmp")},
         # A job in the background has SIGINT ignored, and its children, too.
         preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),  # noqa: PLW1509  see test_sweep_killed.py
     ) as process:  # fmt: skip
@@ -57,6 +61,46 @@ def test_it_ends_without_a_word_too_many_and_leaves_nothing_behind(
     assert process.returncode == code
     assert "Traceback" not in said
     assert list((tmp_path / "tmp").iterdir()) == []
+
+
+@pytest.mark.skipif(sys.platform == "darwin", reason="macOS always has a browser with a window")
+@pytest.mark.parametrize("name", ["w3m", "anything"])
+def test_a_browser_that_does_not_return_holds_up_nobody(name: str, fmu_dir: Path, tmp_path: Path) -> None:
+    place = tmp_path / "bin"
+    place.mkdir()
+    (place / name).write_text(f"#!/bin/sh\necho $1 > {tmp_path / 'asked'}\nexec sleep 60\n", encoding="utf-8")
+    (place / name).chmod(0o755)
+    hidden = ("DISPLAY", "WAYLAND_DISPLAY", "BROWSER")
+    env = {key: value for key, value in os.environ.items() if key not in hidden} | {
+        "TERM": "xterm",
+        "PATH": f"{place}:/bin:/usr/bin",
+    }
+    # The first is found by itself where there is no window, the second is what somebody has set.
+    if name == "anything":
+        env["BROWSER"] = str(place / name)
+    else:
+        env["PATH"] = f"{place}:/bin"
+    with playing(fmu_dir, tmp_path, browser=True, env=env) as (process, address):
+        assert process.stdout is not None
+        if name == "w3m":
+            assert process.stdout.readline() == "no browser has opened; open the address yourself\n"
+        with urlopen(address, timeout=30) as answer:
+            assert answer.status == 200
+        if name == "anything":
+            until_there(tmp_path / "asked")
+            assert (tmp_path / "asked").read_text(encoding="utf-8").strip() == address
+        process.send_signal(signal.SIGTERM)
+        assert process.wait(timeout=120) == 143
+    assert (tmp_path / "asked").exists() == (name == "anything")
+
+
+def until_there(path: Path) -> None:
+    """Waits for a file that is written at once."""
+    for _ in range(300):
+        if path.is_file() and path.stat().st_size:
+            return
+        sleep(0.1)
+    pytest.fail(f"{path.name} is not there")
 
 
 def test_the_page_says_when_nobody_answers_and_that_nothing_was_saved(fmu_dir: Path, tmp_path: Path) -> None:

@@ -9,6 +9,7 @@ from typing import Any
 
 import pytest
 
+from contrast import faint
 from exo import loop, selection
 from exo.play import bench as benches
 from exo.play import server
@@ -270,6 +271,51 @@ def test_a_screen_reader_hears_what_happens_and_not_every_number(opened: Callabl
     assert page.evaluate(live) == []
     assert page.evaluate("document.querySelectorAll('output').length") > 4
     assert page.evaluate("document.getElementById('tank').ariaValueText") == page.inner_text("#tank-text")
+
+
+def test_the_handle_stays_below_the_mouse_from_however_far_it_is_seen(opened: Callable[..., Any]) -> None:
+    page = opened("arm")
+    before = until(page, "state.time > 0.2")["values"]["plant.p[3]"]
+
+    def led() -> float:
+        drag(page, right=0.0, down=-0.1)
+        # The last of its steps is told with a frame.
+        page.wait_for_timeout(500)
+        target = until(page, "state.target !== null")["target"]
+        page.mouse.up()
+        until(page, "state.target === null")
+        return float(target[2]) - before
+
+    near = led()
+    page.click("#again")
+    until(page, "state.run === 2 && state.time > 0.1")
+    for _ in range(2):
+        page.get_by_role("button", name="Farther").click()
+    assert led() == pytest.approx(1.25**2 * near, rel=0.05)
+
+
+@pytest.mark.parametrize("dark", [False, True])
+def test_text_stands_out_whatever_happens(dark: bool, opened: Callable[..., Any]) -> None:
+    page = opened("testbed", dark=dark)
+    assert faint(page, skipped=".er-on") == {}
+    page.fill("#forces input", "10")
+    until(page, "state.word === 'touches' && state.values['controller.q_n'] > 1")
+    assert faint(page, skipped=".er-on") == {}
+    page.fill("#forces input", "-10")
+    until(page, "state.word === 'sticks'")
+    assert faint(page, skipped=".er-on") == {}
+    page.click("#repeat")
+    until(page, "state.let_go !== null")
+    assert faint(page, skipped=".er-on") == {}
+
+
+def test_without_scripts_a_sentence_says_what_is_missing(opened: Callable[..., Any]) -> None:
+    page = opened("testbed")
+    context = page.context.browser.new_context(java_script_enabled=False)
+    other = context.new_page()
+    other.goto(page.url)
+    assert other.get_by_text("Scripts are off, and this page cannot do without them").is_visible()
+    context.close()
 
 
 @pytest.mark.parametrize("width", [390, 800, 1400])

@@ -6,6 +6,7 @@ from typing import Any
 
 import pytest
 
+from contrast import faint
 from exo.experiment import Experiment
 from replays import MASSES, Opening, browsers, lifted, pages, pushed, scene
 
@@ -127,6 +128,18 @@ def test_a_screen_reader_is_told_what_is_seen_and_when_it_sticks(payload: Experi
         ".filter(one => !(one.ariaLabel || one.textContent.trim() || one.labels?.length)).length"
     )
     assert unnamed == 0
+
+
+@pytest.mark.parametrize("dark", [False, True])
+def test_text_stands_out_in_both_colour_schemes(
+    dark: bool, wall: Experiment, payload: Experiment, opened: Opening
+) -> None:
+    scheme = "dark" if dark else "light"
+    for experiment, time in ((wall, 30.0), (payload, 9.0)):
+        page = opened(scene(experiment), dark=dark, color_scheme=scheme)
+        page.at(time)
+        page.page.wait_for_timeout(200)
+        assert faint(page.page, skipped=".er-on") == {}
 
 
 def test_it_plays_by_itself_only_if_asked_and_never_for_who_wants_less_motion(

@@ -74,9 +74,9 @@ def legend(section: Locator) -> str:
 
 @pytest.mark.parametrize("width", [390, 1400])
 def test_the_name_of_a_level_lies_on_no_curve(width: int, browser: Browser, written: Written) -> None:
-    # At rest on the level, then off it just where the name would end.
+    # At rest on the level, then off it where a name at its end would stand.
     time = np.arange(500) * STEP
-    values = np.where(time < 0.93, 0.3, 0.3 - 40.0 * (time - 0.93))
+    values = np.where(time < 0.975, 0.3, 0.3 + 40.0 * (time - 0.975))
     values[time < 0.05] = 2.0
     file = written(values, panel='marks = [0.3]\nmark_label = "wall"\ny_range = [-1.5, 2.0]\n')
     page = browser.new_page(viewport={"width": width, "height": 900})
@@ -101,8 +101,9 @@ def test_one_point_is_a_dot_at_its_instant(browser: Browser, written: Written) -
         canvas = section.locator(".plot canvas")
         whole = {"left": 0, "top": 0, "width": 1400, "height": 230}
         until(page, lambda: canvas.evaluate(BLUE, whole) > 8)
-        page.locator("#short .timebar input").fill("0.154")
         plot = section.locator(".plot")
+        plot.focus()
+        page.keyboard.press("End")
         until(page, lambda: told(plot) == (0.154, {"q": "3 m"}))
 
 

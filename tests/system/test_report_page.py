@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Browser, Page
 
+from contrast import faint
 from exo import experiment, loop, report, results
 from exo.scenario import load
 from exo.selection import narrowed
@@ -109,6 +110,7 @@ def test_nothing_is_wider_than_the_page_and_text_stands_out(
         assert wide == []
         for selector in ("h1", ".soft", ".about", "a", ".counts", ".curve", ".value", "#search", "td"):
             assert contrast(page, selector) >= 4.5, selector
+        assert faint(page, skipped=".er-on") == {}
 
 
 def test_what_the_search_takes_can_be_read_on_a_telephone(browser: Browser, file: Path) -> None:

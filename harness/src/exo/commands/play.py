@@ -2,8 +2,8 @@
 
 import secrets
 import shlex
+import threading
 import webbrowser
-from contextlib import suppress
 from pathlib import Path
 from typing import Annotated
 
@@ -13,6 +13,9 @@ from exo import loop
 from exo.commands.options import FmuDir
 from exo.errors import ExoError
 from exo.screen import console, sentences
+
+#: They take the terminal, and know no scripts.
+TEXT_BROWSERS = {"www-browser", "links", "elinks", "lynx", "w3m"}
 
 
 def play(
@@ -48,9 +51,20 @@ def play(
             console.print(f"{chosen.title}: {address}", markup=False)
             console.print(f"engine {stepped}; saved runs go to {out}; Ctrl-C ends it", markup=False)
             if browser:
-                with suppress(webbrowser.Error):
-                    webbrowser.open(address)
+                # Some return only when the browser is left.
+                threading.Thread(target=_open, args=(address,), name="browser", daemon=True).start()
             server.serve(live, bound, token=token, out=out, run_options=_run_options(fmu_dir))
+
+
+def _open(address: str) -> None:
+    """Opens the address in a window; says so, where there is none to be had."""
+    try:
+        found = webbrowser.get()
+        opened = Path(getattr(found, "name", "")).name not in TEXT_BROWSERS and found.open(address)
+    except (webbrowser.Error, OSError):
+        opened = False
+    if not opened:
+        console.print("no browser has opened; open the address yourself", markup=False)
 
 
 def _run_options(fmu_dir: Path | None) -> str:

@@ -12,7 +12,7 @@ const PLAY_NAMES = {
 const PLAY_COLOURS = {
   "plant.q": "--robot", "controller.q_n": "--nominal", "controller.tau_h": "--hand", "controller.tau_a": "--drive",
   "controller.energy.tank": "--tank", "plant.p[3]": "--robot", "controller.p_n[3]": "--nominal", "controller.f_h[3]": "--hand",
-  "plant.f_e[3]": "--contact", "controller.tau_a[1]": "--drive", "controller.tau_a[2]": "--robot", "controller.tau_a[3]": "--tank",
+  "plant.f_e[3]": "--contact", "controller.tau_a[1]": "--drive", "controller.tau_a[2]": "--robot", "controller.tau_a[3]": "--touch",
 };
 /** Lines of a panel differ without their colours, too. */
 const PLAY_DASHES = [[undefined, "solid"], [[6, 3], "dashed"], [[2, 3], "dotted"]];

@@ -1,8 +1,11 @@
 // The hand: mouse and finger on the drawing, sliders for the force, keys.
 "use strict";
 
-/** `send(message)` goes to the run; `place()` is where the handle is (m, an axis each), or null. */
-function playHand(bench, send, place) {
+/**
+ * `send(message)` goes to the run; `place()` is where the handle is (m, an axis each), or null; `distance()` how far the
+ * drawing's eye is from it (m), or null.
+ */
+function playHand(bench, send, place, distance) {
   const $ = (id) => document.getElementById(id);
   const testbed = bench.kind === "testbed";
   const grip = $("grip");
@@ -12,9 +15,9 @@ function playHand(bench, send, place) {
   /** Metres of the drawing for one pixel. */
   function scale() {
     if (!testbed) {
-      // The camera looks from the side, 2.4 m away, with an opening of 32 degrees.
+      // The camera looks with an opening of 32 degrees, from as far as it has been led.
       const height = grip.querySelector("canvas, .er-draw svg")?.clientHeight || 300;
-      return (2 * 2.4 * Math.tan((16 * Math.PI) / 180)) / height;
+      return (2 * (distance() ?? 2.4) * Math.tan((16 * Math.PI) / 180)) / height;
     }
     // From two ticks of the rail on this side of the wall.
     const ticks = [...grip.querySelectorAll(".er-tick")].map((tick) => [Number(tick.getAttribute("x1")), Number((tick.nextElementSibling?.textContent ?? "").replace("−", "-"))]);

@@ -19,7 +19,7 @@
     hand.dropped();
   });
   const told = playTold(bench);
-  const hand = playHand(bench, send, () => state && Object.keys(state.values).length ? bench.position.map((name) => state.values[name]) : null);
+  const hand = playHand(bench, send, () => state && Object.keys(state.values).length ? bench.position.map((name) => state.values[name]) : null, () => drawing?.distance() ?? null);
   const knobs = playKnobs(bench, send);
   const charts = playCharts(bench);
   document.getElementById("modes").hidden = testbed;

@@ -20,7 +20,7 @@ const USUAL = { f_h: 20, f_e: 500, tension: 200, tau_h: 5, tau_a: 12.5, tau_e: 2
  * and `q` must be there. Arm: `time`, `arms` with one object an arm, `q` (three joint angles, rad), `p_n` (m), `f_h`, `f_e`,
  * `f_d`, `tension` (N), of which only `q` must be there; `attached`, and `payload`, where it lies while it is not held (m).
  * It answers the status: `kind` is free, presses, rests, sticks or letGo; `lasted` is how long it has stuck (s).
- * `reshape(geometry)` takes another table, wall or payload.
+ * `reshape(geometry)` takes another table, wall or payload. `distance()` is that of the eye (m), or null.
  */
 export function live(element, geometry, options = {}) {
   styled();
@@ -94,6 +94,8 @@ export function live(element, geometry, options = {}) {
       shape = next;
       build(next);
     },
+    /** From the eye to the arm (m); null for a drawing that has none. */
+    distance: () => camera?.distance() ?? null,
     state: () => ({ ...shown.drawing.pose(), status: last }),
     dispose() {
       if (queued) cancelAnimationFrame(queued);

@@ -45,6 +45,8 @@ export function orbit({ look, geometry, changed }) {
   preset(0);
 
   return {
+    /** From the eye to what it looks at (m). */
+    distance: () => look.camera.position.distanceTo(target),
     element: html("div", { class: "er-group", role: "group", "aria-label": "Camera" }, html("span", {}, "View"), ...buttons, closer, farther, names),
     attach(element) {
       const controls = new OrbitControls(look.camera, element);
