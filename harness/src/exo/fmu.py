@@ -13,7 +13,7 @@ from ctypes import byref, c_char_p, c_double, c_int, c_size_t, c_void_p
 from math import isfinite
 from pathlib import Path
 from types import TracebackType
-from typing import Any, Self
+from typing import Any, Literal, Self
 
 import fmpy
 import numpy as np
