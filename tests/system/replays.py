@@ -26,7 +26,8 @@ def run(name: str, *cases: str, fmu_dir: Path, **changed: Any) -> Experiment:
     full = scenario.load(name)
     chosen = tuple(case for case in full.cases if case.id in cases)
     data = full.model_copy(update={"cases": chosen, "figures": (), "ratios": (), "metrics": (), **changed})
-    return experiments.run(scenario=data, fmu_dir=fmu_dir, engine=loop.fastest())
+    given = {key: value for key, value in changed.items() if key in {"duration", "step"}}
+    return experiments.run(scenario=data, fmu_dir=fmu_dir, engine=loop.fastest(), given=given)
 
 
 def lifted(fmu_dir: Path) -> Experiment:

@@ -269,7 +269,12 @@ def test_threads_simulate_one_system_at_the_same_time(engine: Any, testbed: exo.
 
 @pytest.mark.skipif(sys.platform == "win32", reason="Windows sends no SIGINT to a process of its own")
 @pytest.mark.parametrize("engine", ["fmpy", "native"])
-def test_ctrl_c_ends_a_long_run_at_once_and_the_next_one_runs(engine: Any, testbed: exo.System) -> None:
+def test_ctrl_c_ends_a_long_run_at_once_and_the_next_one_runs(
+    engine: Any, testbed: exo.System, request: pytest.FixtureRequest
+) -> None:
+    # A job in the background has SIGINT ignored.
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    request.addfinalizer(lambda: signal.signal(signal.SIGINT, before))
     exo.simulate(testbed, duration=0.1, engine=engine)
     sent: list[float] = []
     timer = threading.Timer(0.2, lambda: (sent.append(time.monotonic()), os.kill(os.getpid(), signal.SIGINT)))

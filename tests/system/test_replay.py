@@ -35,7 +35,8 @@ def run(name: str, *cases: str, fmu_dir: Path, **changed: Any) -> Experiment:
     data = data.model_copy(
         update={"metrics": tuple(m.model_copy(update={"cases": cases, "expected": {}}) for m in kept)}
     )
-    return experiments.run(scenario=data, fmu_dir=fmu_dir, engine=loop.fastest())
+    given = {key: value for key, value in changed.items() if key in {"duration", "step"}}
+    return experiments.run(scenario=data, fmu_dir=fmu_dir, engine=loop.fastest(), given=given)
 
 
 @pytest.fixture(scope="module")

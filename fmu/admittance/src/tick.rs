@@ -229,13 +229,8 @@ impl<L: Coordinates<N>, const N: usize> Sampled<L, N> {
         let mut share = 1.0;
         let taken = law.taken(&proposal, &driven, &f);
         if !self.ledger.covers(&settlement, &tau, taken) {
-            let (proposal, f_whole) = (proposal, f);
-            share = self.ledger.share(&settlement, &tau, |share| {
-                let f = f_whole * share;
-                law.taken(&proposal, &law.driven(&proposal, &f), &f)
-            });
+            (share, driven) = self.shared(settlement, proposal, f, tau);
             (f, tau) = (f * share, tau * share);
-            driven = law.driven(&proposal, &f);
         }
 
         // 5. Commit. The nominals move on, feeling what the law says, and the sample that begins is booked.
@@ -260,6 +255,24 @@ impl<L: Coordinates<N>, const N: usize> Sampled<L, N> {
         self.law.commit(&proposal, &driven, &f);
         self.book(&settlement, Some(inputs.q), f, tau, flow);
         Ok(())
+    }
+
+    /// The share of the forces `f` and `tau` that the tank covers, where it does not cover the whole, and how the nominals move
+    /// with it. It gets copies: what nothing points at stays in registers in the ticks that do not come here.
+    #[cold]
+    #[inline(never)]
+    fn shared(
+        &self,
+        settlement: Settlement<N>,
+        proposal: L::Proposal,
+        f: SVector<Real, N>,
+        tau: SVector<Real, N>,
+    ) -> (Real, L::Driven) {
+        let driven = |share| self.law.driven(&proposal, &(f * share));
+        let share = self.ledger.share(&settlement, &tau, |share| {
+            self.law.taken(&proposal, &driven(share), &(f * share))
+        });
+        (share, driven(share))
     }
 
     /// As far towards the forces `f` and `tau` as the actuators' rate allows.

@@ -215,7 +215,7 @@ impl ArmLaw {
     }
 
     /// One tick with what is `believed` of the joint angles.
-    #[inline(always)]
+    #[inline]
     fn tick_at(
         &mut self,
         believed: &Believed<3>,
@@ -227,17 +227,29 @@ impl ArmLaw {
             .q
             .is_some_and(|q| self.counting.would_move(&q, self.may_engage(inputs)));
         if moves {
-            // Seldom, and in single precision only: a tick that is refused leaves the origin where it was, too.
-            let mut law = *self;
-            law.tick_believing(believed, after, inputs, outputs)?;
-            *self = law;
-            Ok(())
+            self.tick_moving(believed, after, inputs, outputs)
         } else {
             self.tick_believing(believed, after, inputs, outputs)
         }
     }
 
-    #[inline(always)]
+    /// The same where the origin moves: seldom, and in single precision only. A tick that is refused leaves it where it was, too.
+    #[cold]
+    #[inline(never)]
+    fn tick_moving(
+        &mut self,
+        believed: &Believed<3>,
+        after: Real,
+        inputs: &ArmInputs,
+        outputs: &mut ArmOutputs,
+    ) -> Result<(), NotFinite> {
+        let mut law = *self;
+        law.tick_believing(believed, after, inputs, outputs)?;
+        *self = law;
+        Ok(())
+    }
+
+    #[inline]
     fn tick_believing(
         &mut self,
         believed: &Believed<3>,
