@@ -122,8 +122,8 @@ def test_an_archive_is_one_object_that_shows_the_laws_functions_only(precision: 
     assert shown == {name.replace("exo_", prefix, 1) for name in names}
     assert needed <= ASKED
     assert len(succeeds("ar", "t", library(precision)).splitlines()) == 1
-    # It was 4.7 MB. The law itself has some 0.2 MB of code and constants.
-    assert library(precision).stat().st_size < 600_000
+    # It was 4.7 MB. The law itself has some 0.3 MB of code and constants, the rest says where they are put.
+    assert library(precision).stat().st_size < 650_000
 
 
 def test_both_archives_link_whole_into_a_shared_library_that_leaves_nothing_undefined(tmp_path: Path) -> None:

@@ -215,7 +215,7 @@ impl ArmLaw {
     }
 
     /// One tick with what is `believed` of the joint angles.
-    #[inline]
+    #[inline(always)]
     fn tick_at(
         &mut self,
         believed: &Believed<3>,
@@ -249,7 +249,7 @@ impl ArmLaw {
         Ok(())
     }
 
-    #[inline]
+    #[inline(always)]
     fn tick_believing(
         &mut self,
         believed: &Believed<3>,
