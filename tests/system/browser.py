@@ -5,6 +5,7 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from typing import Any
 
 import pytest
 from playwright.sync_api import Browser, Page, sync_playwright
@@ -52,6 +53,13 @@ def shown(
     # What the page makes of its own data is no request.
     assert [url for url in asked if not url.startswith(("data:", "blob:"))] == [file.as_uri()]
     context.close()
+
+
+def box_of(page: Page, selector: str) -> dict[str, float]:
+    """Where the first such element is, px: once it is there, for what is drawn anew is gone for a moment."""
+    found: list[Any] = []
+    until(page, lambda: bool(found.append(page.locator(selector).first.bounding_box()) or found[-1]))
+    return dict(found[-1])
 
 
 def until(page: Page, holds: Callable[[], bool]) -> None:

@@ -25,7 +25,7 @@ from replays import (
     scene,
 )
 
-from browser import until
+from browser import box_of, until
 
 
 @pytest.fixture(scope="module")
@@ -139,9 +139,9 @@ def test_the_mass_and_the_nominal_mass_are_where_they_were_recorded(wall: Experi
             assert drawn["q_n"] == pytest.approx(recorded["controller.q_n"][tick], abs=1e-4)
     # Seen from the page: the mass touches the wall, its ghost is behind it.
     page.at(30.0)
-    face = page.page.locator(".er-mass").first.bounding_box()
-    barrier = page.page.locator(".er-wall").first.bounding_box()
-    ghost = page.page.locator("rect.er-ghost").first.bounding_box()
+    face = box_of(page.page, ".er-mass")
+    barrier = box_of(page.page, ".er-wall")
+    ghost = box_of(page.page, "rect.er-ghost")
     assert face["x"] + face["width"] == pytest.approx(barrier["x"], abs=4.0)
     assert ghost["x"] > barrier["x"] + barrier["width"]
 
