@@ -108,8 +108,12 @@ def test_the_page_says_when_nobody_answers_and_that_nothing_was_saved(fmu_dir: P
         page = browser.new_page()
         page.goto(address)
         until(page, lambda: page.inner_text("#status") == "running")
+        page.keyboard.down("ArrowRight")
+        until(page, lambda: page.input_value("#forces input") == "2.5")
         process.send_signal(signal.SIGSTOP)
         says(page, "exo play has not answered for some seconds")
+        # Who lets go meanwhile has let go.
+        page.keyboard.up("ArrowRight")
         assert page.inner_text("#status") == "no answer"
         page.click("#save button")
         assert page.inner_text("#saved") == "Not saved: exo play does not answer."
@@ -117,6 +121,7 @@ def test_the_page_says_when_nobody_answers_and_that_nothing_was_saved(fmu_dir: P
         until(page, lambda: not page.is_visible("#lost"))
         # After a sleep the run goes on from where it stood.
         until(page, lambda: page.inner_text("#status") == "running")
+        until(page, lambda: page.input_value("#forces input") == "0")
         process.kill()
         says(page, "The connection to exo play is gone. If the command has ended, start it again")
         assert page.inner_text("#status") == "no answer"

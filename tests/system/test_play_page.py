@@ -288,6 +288,7 @@ def test_the_handle_stays_below_the_mouse_from_however_far_it_is_seen(opened: Ca
         page.wait_for_timeout(500)
         target = until(page, "state.target !== null")["target"]
         page.mouse.up()
+        until(page, "state.target === null")
         return float(target[2]) - before
 
     near = led()

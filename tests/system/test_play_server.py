@@ -236,8 +236,27 @@ def test_a_flood_of_ten_thousand_messages_is_survived(served: Served) -> None:
         assert after["status"] in GOES_ON
         assert monotonic() - began < 15.0
     with served.tab() as tab:
-        tab.send('{"set": {"name": "K", "to": 30}}')
-        state_where(tab, lambda state: state["settings"]["K"] == 30)
+        # Not K: what was let through of the flood may come after this.
+        tab.send('{"set": {"name": "D_n", "to": 1.5}}')
+        state_where(tab, lambda state: state["settings"]["D_n"] == 1.5)
+
+
+@pytest.mark.parametrize(
+    ("grip", "let_go", "is_free"),
+    [
+        ('{"hand":{"target":[0.1]}}', '{"hand":{"target":null}}', lambda state: state["target"] is None),
+        ('{"hand":{"push":[3]}}', '{"hand":{"push":[0]}}', lambda state: state["push"] == [0]),
+    ],
+)
+def test_to_let_go_is_never_too_much(served: Served, grip: str, let_go: str, is_free: Callable[[Any], bool]) -> None:
+    with served.tab() as other, served.tab(max_queue=None) as flood:
+        flood.send(grip)
+        state_where(other, lambda state: not is_free(state))
+        for i in range(2_000):
+            flood.send(json.dumps({"set": {"name": "K", "to": 1 + i % 59}}))
+        flood.send(let_go)
+        assert answer(flood, "error", within=20.0).startswith("too many messages")
+        state_where(other, is_free)
 
 
 def test_a_page_that_does_not_read_gets_the_newest_state_when_it_does(served: Served) -> None:

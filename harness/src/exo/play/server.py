@@ -36,6 +36,9 @@ NAMES = (HOST, "localhost")
 RATE, AHEAD = 30.0, 4
 #: From then on a page that gets nothing would believe that nobody is there (s).
 STILL = 1.0
+#: What the page says once it has drawn a state, and when its hand lets go.
+SEEN = '{"seen":true}'
+LETS_GO = {'{"hand":{"target":null}}', '{"hand":{"push":[0]}}', '{"hand":{"push":[0,0,0]}}'}
 #: Messages a second that a page may send, and how many at once.
 MOST, BURST = 150.0, 300.0
 #: Pages at once.
@@ -156,7 +159,10 @@ class Tabs:
                     if answer is not None:
                         await tab.send(answer)
                     else:
-                        self._moved |= dict.fromkeys(messages.moved(text), tab)
+                        moved = messages.moved(text)
+                        self._moved |= dict.fromkeys(moved, tab)
+                        if moved:
+                            tab.acts = text not in LETS_GO
             finally:
                 sender.cancel()
         except (WebSocketDisconnect, RuntimeError):
@@ -178,6 +184,8 @@ class Tab:
         self._socket = socket
         self._live = live
         self._unseen = 0
+        #: Whether the page may hold the handle, or push.
+        self.acts = False
         self._one = asyncio.Lock()
         self._left, self._filled, self._warned = BURST, monotonic(), 0.0
 
@@ -208,18 +216,18 @@ class Tab:
         await self.send({"state": state.as_json()})
 
     async def messages(self) -> AsyncIterator[str]:
-        """What the page sends, without what it says it has seen and without what is too much."""
+        """What the page sends, without what it has seen and without what is too much: to let go never is."""
         while True:
             message = await self._socket.receive()
             if message["type"] == "websocket.disconnect":
                 return
             text = message.get("text")
-            if not self._allowed():
+            if text == SEEN:
+                self._unseen = 0
+            elif not self._allowed() and not (text in LETS_GO and self.acts):
                 await self._warn()
             elif text is None:
                 await self.send({"error": "a message of bytes; expected text"})
-            elif text == '{"seen":true}':
-                self._unseen = 0
             else:
                 yield text
 

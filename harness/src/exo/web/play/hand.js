@@ -102,14 +102,12 @@ function playHand(bench, send, place, distance) {
     show(push);
     send({ hand: { push } });
   }
-  function dropped() {
+  /** Lets go of all. */
+  function release() {
     held = target = null;
     $("dot").hidden = true;
     grip.classList.remove("held");
     down.clear();
-  }
-  function release() {
-    dropped();
     press(Array(axes).fill(0));
     send({ hand: { target: null } });
   }
@@ -152,5 +150,5 @@ function playHand(bench, send, place, distance) {
   function update(state) {
     if (performance.now() - pressed > 700 && !down.size) show(state.push);
   }
-  return { update, dropped, cleared: () => sliders.some((one) => Number(one.slider.value)) && press(Array(axes).fill(0)) };
+  return { update, release, cleared: () => sliders.some((one) => Number(one.slider.value)) && press(Array(axes).fill(0)) };
 }

@@ -40,8 +40,9 @@ function playLink(taken, heard) {
     if (looks > 1) say(PLAY_SILENT);
   }, 500);
   return (message) => {
-    const there = socket.readyState === WebSocket.OPEN && !trouble;
-    if (there) socket.send(JSON.stringify(message));
-    return there;
+    const open = socket.readyState === WebSocket.OPEN;
+    // To let go while nobody answers waits in the socket. All else would act too late, and is said not to be sent.
+    if (open && (!trouble || message.hand)) socket.send(JSON.stringify(message));
+    return open && !trouble;
   };
 }

@@ -16,7 +16,7 @@
     if (!trouble) return;
     state = null;
     told.gone();
-    hand.dropped();
+    hand.release();
   });
   const told = playTold(bench);
   const hand = playHand(bench, send, () => state && Object.keys(state.values).length ? bench.position.map((name) => state.values[name]) : null, () => drawing?.distance() ?? null);
