@@ -135,12 +135,6 @@ impl Rule {
         (y_s - self.gains.K_P * e) / self.lead + dq
     }
 
-    /// Energy stored in nominal mass and spring, J. 0 for alpha = 0.
-    #[inline]
-    pub fn stored(&self, e: Real, v_n: Real) -> Real {
-        self.mass.energy(v_n) + self.spring.energy(e)
-    }
-
     /// Energy (K/alpha) f_h v_m T that the human's port brings in a sample, J. 0 for alpha = 0.
     #[inline]
     pub fn supplied(&self, f_h: Real, v_m: Real) -> Real {

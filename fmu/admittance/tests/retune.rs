@@ -22,7 +22,8 @@ fn stored(law: Law, gains: &Gains, e: f64, v_n: f64) -> f64 {
         law,
         ..Settings::default()
     };
-    Rule::new(&settings, gains).stored(e, v_n)
+    let Rule { spring, mass, .. } = Rule::new(&settings, gains);
+    mass.energy(v_n) + spring.energy(e)
 }
 
 fn gains() -> impl Strategy<Value = Gains> {
