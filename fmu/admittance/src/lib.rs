@@ -34,7 +34,7 @@
 //! | tau_a, f_a | K y (eq:dob_input), limited | N | [`Tick::f`] |
 //! | alpha | the unit damper that the paper hides | N·s/m | [`Settings::alpha`] |
 //! | M_n, D_n, K, K_P, f_max | | kg, N·s/m, N·s/m, 1/s, N | [`Gains`] |
-//! | H | K(½ M_n v_n²/alpha + ½ K_P e²) | J | [`Rule::stored`](midpoint::Rule::stored) |
+//! | H | K(½ M_n v_n²/alpha + ½ K_P e²) | J | [`Coordinates::stored`](tick::Coordinates::stored) |
 //! | G, E | ΔG = ΔH + f·Δq − (K/alpha) f_h v_m T, E ← min(E_0, E − ΔG) | J | [`Ledger`] |
 //!
 //! On a rotary axis read rad for m, N·m for N, kg·m² for kg. Forces act on the robot and are positive along the axis; q,
