@@ -165,7 +165,7 @@ def test_the_next_run_removes_what_a_killed_process_has_left_and_nothing_of_a_li
 
 
 def test_a_run_that_is_told_to_end_leaves_nothing(place: Path, fmu_dir: Path, tmp_path: Path) -> None:
-    command = [sys.executable, "-m", "exo.cli", "run", "wall", "--fmu-dir", fmu_dir, "--out", tmp_path / "out"]
+    command = [sys.executable, "-m", "exo", "run", "wall", "--fmu-dir", fmu_dir, "--out", tmp_path / "out"]
     process = subprocess.Popen(command, env=os.environ | {"TMPDIR": str(place)}, stderr=subprocess.PIPE, text=True)
     while process.poll() is None and not list(place.glob(f"{extraction.PREFIX}*")):
         pass

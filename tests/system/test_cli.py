@@ -4,6 +4,9 @@ import json
 import re
 import shlex
 import shutil
+import signal
+import subprocess
+import sys
 from pathlib import Path
 from xml.etree import ElementTree as ET
 
@@ -253,3 +256,27 @@ def test_the_schema_refuses_an_entry_without_its_source(short: Path, tmp_path: P
     assert validator.is_valid(document)
     del document["metrics"]["moved/push"]["source"]
     assert not validator.is_valid(document)
+
+
+#: `python -m exo`, interrupted when the module of its first argument is looked for.
+INTERRUPTED = """
+import os, runpy, signal, sys
+
+class Ctrl_C:
+    def find_spec(self, name, *_):
+        if name == at:
+            os.kill(os.getpid(), signal.SIGINT)
+
+at = sys.argv.pop(1)
+signal.signal(signal.SIGINT, signal.default_int_handler)
+sys.meta_path.insert(0, Ctrl_C())
+runpy.run_module("exo", run_name="__main__")
+"""
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="Windows sends no SIGINT to a process of its own")
+@pytest.mark.parametrize("at", ["exo.cli", "numpy", "exo.commands.tune"])
+def test_a_ctrl_c_in_the_first_second_shows_no_traceback(at: str) -> None:
+    command = [sys.executable, "-c", INTERRUPTED, at, "list"]
+    ended = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert (ended.returncode, ended.stdout, ended.stderr) == (-signal.SIGINT, "", "")

@@ -91,7 +91,7 @@ def test_metrics_have_units_and_undefined_ones_are_equal(tmp_path: Path, fmu_dir
 def test_a_terminal_that_lacks_letters_gets_their_numbers(tmp_path: Path) -> None:
     table(tmp_path / "a", [1.0], name="one")
     table(tmp_path / "b", [1.0], name="other")
-    command = [sys.executable, "-m", "exo.cli", "compare", tmp_path / "a.csv", tmp_path / "b.csv"]
+    command = [sys.executable, "-m", "exo", "compare", tmp_path / "a.csv", tmp_path / "b.csv"]
     environment = os.environ | {"PYTHONIOENCODING": "latin-1", "PYTHONUTF8": "0"}
     answer = subprocess.run(command, capture_output=True, env=environment, check=False)
     assert (answer.returncode, answer.stderr) == (1, b"")

@@ -47,7 +47,7 @@ def german(tmp_path_factory: pytest.TempPathFactory) -> dict[str, str]:
 
 
 def command(environment: dict[str, str], *arguments: object) -> None:
-    line = [sys.executable, "-m", "exo.cli", *map(str, arguments)]
+    line = [sys.executable, "-m", "exo", *map(str, arguments)]
     answer = subprocess.run(line, env=environment, capture_output=True, text=True, timeout=300, check=False)
     assert answer.returncode == 0, answer.stderr
 

@@ -234,7 +234,7 @@ def test_a_run_by_the_clock_that_is_ended_leaves_the_results_that_were_there(
     assert exo(*arguments).exit_code == 0
     before = contents(tmp_path / "out")
     process = subprocess.Popen(
-        [sys.executable, "-m", "exo.cli", *map(str, arguments), "--real-time", "--duration", "600"],
+        [sys.executable, "-m", "exo", *map(str, arguments), "--real-time", "--duration", "600"],
         stderr=subprocess.PIPE,
         text=True,
         env={**os.environ, "TMPDIR": str(tmp_path / "temporary")},

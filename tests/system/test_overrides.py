@@ -182,7 +182,7 @@ def test_the_version_and_the_list_are_for_programs_too() -> None:
 
 
 def test_a_pipe_that_is_closed_early_is_no_error() -> None:
-    command = [sys.executable, "-m", "exo.cli", "schema"]
+    command = [sys.executable, "-m", "exo", "schema"]
     process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
     process.stdout.close()
     assert process.stderr.read() == b""

@@ -25,7 +25,7 @@ def playing(
 ) -> Iterator[tuple[subprocess.Popen[str], str]]:
     """The command, and the address that it prints."""
     (place / "tmp").mkdir()
-    command = [sys.executable, "-m", "exo.cli", "play", "--fmu-dir", str(fmu_dir)]
+    command = [sys.executable, "-m", "exo", "play", "--fmu-dir", str(fmu_dir)]
     command += [] if browser else ["--no-browser"]
     with subprocess.Popen(
         command, cwd=place, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,

@@ -108,7 +108,7 @@ def many(text: str, number: int, first: float) -> str:
 
 
 def start(path: Path, out: Path, fmu_dir: Path) -> subprocess.Popen[bytes]:
-    command = [sys.executable, "-m", "exo.cli", "run", path, "--fmu-dir", fmu_dir, "--out", out]
+    command = [sys.executable, "-m", "exo", "run", path, "--fmu-dir", fmu_dir, "--out", out]
     return subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
 
 

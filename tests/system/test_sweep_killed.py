@@ -24,7 +24,7 @@ from sweeping import DEADLY, LONG, LONG_ROWS, WALL, assert_one_row_is_deadly, nu
 def command(file: Path, out: Path, fmu_dir: Path, *more: str) -> subprocess.Popen[str]:
     arguments = ["sweep", str(file), "--out", str(out), "--fmu-dir", str(fmu_dir), *more]
     return subprocess.Popen(
-        [sys.executable, "-m", "exo.cli", *arguments],
+        [sys.executable, "-m", "exo", *arguments],
         text=True,
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
