@@ -58,6 +58,21 @@ def test_points_that_are_no_map_are_drawn_as_what_they_are(
     assert path.stat().st_size > 5_000
 
 
+@pytest.mark.parametrize(
+    ("said", "scales"),
+    [({}, ("log", "linear")), ({"log": []}, ("linear", "linear")), ({"log": ["y"]}, ("linear", "log"))],
+)
+def test_an_axis_of_scale_log_is_drawn_as_one_unless_the_figure_says_otherwise(
+    said: dict[str, Any], scales: tuple[str, str], tmp_path: Path, monkeypatch: Any
+) -> None:
+    data = {"id": "f", "title": "f", "kind": "scatter", "x": "a", "y": "b", **said}
+    figure = study.Figure.model_validate_json(json.dumps(data))
+    seen = []
+    monkeypatch.setattr(pictures.pyplot, "close", lambda drawing: seen.append(drawing.axes[0]))
+    pictures.draw(figure, sampled("random"), pa.table({"a": [1.0, 100.0], "b": [1.0, 2.0]}), tmp_path)
+    assert [(axes.get_xscale(), axes.get_yscale()) for axes in seen] == [scales]
+
+
 def test_a_figure_that_cannot_be_drawn_leaves_the_others_and_says_where_the_runs_are(
     study_file: Path, fmu_dir: Path, tmp_path: Path
 ) -> None:

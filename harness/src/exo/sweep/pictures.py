@@ -41,7 +41,7 @@ def draw(figure: Figure, study: Study, table: pa.Table, folder: Path) -> Path:
     good = np.all([np.isfinite(column) for column in columns.values()], axis=0)
     for axis, drawn in (("x", figure.x), ("y", figure.y)):
         # What is 0 or below has no place on a logarithmic axis.
-        if drawn is not None and axis in figure.log:
+        if drawn is not None and axis in study.logarithmic(figure):
             good &= columns[drawn] > 0.0
     if not good.any():
         raise ExoError(f"{study.id}: figure {figure.id}: no row has {', '.join(wanted)}")
@@ -60,7 +60,7 @@ def draw(figure: Figure, study: Study, table: pa.Table, folder: Path) -> Path:
         if figure.y is not None and figure.kind != "histogram":
             axes.set_ylabel(figure.y_label or _label(study, figure.y))
         for name, scale in (("x", axes.set_xscale), ("y", axes.set_yscale)):
-            if name in figure.log:
+            if name in study.logarithmic(figure):
                 scale("log")
         try:
             drawing.savefig(path)
@@ -87,7 +87,7 @@ def _map(axes: Any, study: Study, figure: Figure, columns: dict[str, Array]) -> 
     assert figure.y is not None
     assert figure.color is not None
     x, y, z = columns[figure.x], columns[figure.y], columns[figure.color]
-    norm = colors.LogNorm() if "color" in figure.log else None
+    norm = colors.LogNorm() if "color" in study.logarithmic(figure) else None
     yes_or_no = set(np.unique(z)) <= {0.0, 1.0}
     colormap: Any = colors.ListedColormap(YES_OR_NO) if yes_or_no else "viridis"
     if norm is not None and not (z > 0.0).all():
@@ -97,7 +97,7 @@ def _map(axes: Any, study: Study, figure: Figure, columns: dict[str, Array]) -> 
     if len(across) * len(up) == len(z) and min(len(across), len(up)) > 1:
         grid = np.full((len(up), len(across)), np.nan)
         grid[np.searchsorted(up, y), np.searchsorted(across, x)] = z
-        edges = [_edges(points, log=name in figure.log) for name, points in (("x", across), ("y", up))]
+        edges = [_edges(points, log=name in study.logarithmic(figure)) for name, points in (("x", across), ("y", up))]
         drawn = axes.pcolormesh(*edges, grid, norm=norm, cmap=colormap)
         lines = np.full_like(grid, np.nan)
         lines[np.searchsorted(up, y), np.searchsorted(across, x)] = columns[figure.contour or figure.color]
@@ -150,7 +150,7 @@ def _scatter(axes: Any, study: Study, figure: Figure, columns: dict[str, Array])
     if figure.color is None:
         axes.scatter(x, y, s=size, color=BLUE, alpha=0.6, linewidths=0)
     else:
-        norm = colors.LogNorm() if "color" in figure.log else None
+        norm = colors.LogNorm() if "color" in study.logarithmic(figure) else None
         drawn = axes.scatter(x, y, c=columns[figure.color], s=size, norm=norm, cmap="viridis")
         axes.figure.colorbar(drawn, ax=axes, label=figure.color_label or _label(study, figure.color))
     if figure.kind == "scatter" and len(x) > FEW:
@@ -179,10 +179,10 @@ def _medians(x: Array, y: Array) -> tuple[Array, Array]:
     return np.array([np.median(x[part]) for part in parts]), np.array([np.median(y[part]) for part in parts])
 
 
-def _histogram(axes: Any, _study: Study, figure: Figure, columns: dict[str, Array]) -> None:
+def _histogram(axes: Any, study: Study, figure: Figure, columns: dict[str, Array]) -> None:
     x = columns[figure.x]
     bins: Any = "auto"
-    if "x" in figure.log and (x > 0.0).all() and x.max() > x.min():
+    if "x" in study.logarithmic(figure) and (x > 0.0).all() and x.max() > x.min():
         bins = np.geomspace(x.min(), x.max(), 40)
     axes.hist(x, bins=bins, color=BLUE, alpha=0.55)
     low, middle, high = np.percentile(x, [5.0, 50.0, 95.0])

@@ -170,7 +170,8 @@ class Figure(Data):
     x_label: Line = ""
     y_label: Line = ""
     color_label: Line = ""
-    log: tuple[Literal["x", "y", "color"], ...] = ()
+    #: What is drawn logarithmically; without it, each that shows an axis of scale log.
+    log: tuple[Literal["x", "y", "color"], ...] | None = None
 
     @model_validator(mode="after")
     def _has_what_it_draws(self) -> Self:
@@ -215,6 +216,13 @@ class Study(Data):
                 )
             there[name] = figure.id
         return self
+
+    def logarithmic(self, figure: Figure) -> tuple[str, ...]:
+        """Which of a figure's x, y and color are drawn logarithmically."""
+        if figure.log is not None:
+            return figure.log
+        shown = {"x": figure.x, "y": figure.y, "color": figure.color}
+        return tuple(place for place, key in shown.items() if key in self.axes and self.axes[key].scale == "log")
 
     @property
     def size(self) -> int:
