@@ -102,7 +102,8 @@ def machine_time() -> float:
     for process in (here, *here.children(recursive=True)):
         with suppress(psutil.NoSuchProcess):
             times = process.cpu_times()
-            own += times.user + times.system
+            # One that has ended is found with the process that waited for it.
+            own += sum(times[:2]) + getattr(times, "children_user", 0.0) + getattr(times, "children_system", 0.0)
     machine = psutil.cpu_times()
     return float(own + machine.idle + getattr(machine, "iowait", 0.0)) / (psutil.cpu_count() or 1)
 

@@ -18,8 +18,8 @@ import pytest
 
 from exo import extraction, sweep
 from exo.errors import ExoError
+from exo.sweep import apart, store, study, work
 from exo.sweep import cluster as cluster_of
-from exo.sweep import store
 from exo.sweep.chunks import Queue
 
 from commands import exo
@@ -52,6 +52,27 @@ def test_a_row_that_ends_its_process_is_a_failed_row_and_costs_no_worker(
     assert [worker.pid for worker in cluster.workers.values()] == before
 
 
+def test_of_a_chunk_the_row_that_ends_its_process_is_found_and_the_others_are_kept(
+    study_file: Path, fmu_dir: Path, tmp_path: Path, monkeypatch: Any
+) -> None:
+    """Six rows at once: the process ends with the third, and each is sent again, alone."""
+    (tmp_path / "sitecustomize.py").write_text(DEADLY)
+    monkeypatch.setenv("PYTHONPATH", str(tmp_path))
+    found, scenario = study.load(study_file)
+    task = work.Task("t", scenario, found.cases, found.metrics, None, None, fmu_dir, {}, False)
+    process = apart.Apart(task)
+    try:
+        names, done = process.run(list(enumerate(found.rows())))
+    finally:
+        process.close()
+    assert names == ["release_delay", "tank"]
+    assert [one.row for one in done] == [0, 1, 2, 3, 4, 5]
+    ended = {one.row: one.outcome.error for one in done if one.outcome.error is not None}
+    assert set(ended) == {2, 3}
+    assert all("its process was ended twice" in reason for reason in ended.values())
+    assert all(set(one.outcome.numbers) == set(names) for one in done if one.row not in ended)
+
+
 def test_a_cluster_finds_the_same_and_a_killed_worker_is_no_loss(cluster: Any, fmu_dir: Path, tmp_path: Path) -> None:
     file = tmp_path / "long.toml"
     file.write_text(LONG)
@@ -74,7 +95,7 @@ KILLED = """
 import os, pathlib, signal, sys
 from exo.sweep import apart, study, work
 found, scenario = study.load(sys.argv[1])
-task = work.Task("t", scenario, found.cases, found.metrics, None, None, None, {})
+task = work.Task("t", scenario, found.cases, found.metrics, None, None, None, {}, False)
 names = ("Testbed.fmu", "TestbedController.fmu")
 archives = {name: (pathlib.Path(sys.argv[2]) / name).read_bytes() for name in names}
 _, done = apart.run_chunk_apart(task, [(0, found.rows()[0])], archives)

@@ -1,6 +1,7 @@
 """Sweeps: every row once, whatever is killed."""
 
 import errno
+import hashlib
 import os
 import signal
 import subprocess
@@ -12,10 +13,10 @@ from typing import Any
 
 import pytest
 
-from exo import sweep
+from exo import sweep, trial
 from exo.errors import ExoError
 from exo.runs import Outcome
-from exo.sweep import local, store
+from exo.sweep import local, store, study, work
 from exo.sweep.chunks import Queue
 
 from sweeping import DEADLY, LONG, LONG_ROWS, WALL, assert_one_row_is_deadly, numbers
@@ -206,6 +207,43 @@ def test_processes_that_cannot_begin_are_one_sentence(
     monkeypatch.setattr("exo.trial.check", lambda _archive: None)  # begins a process, too
     with pytest.raises(ExoError, match=r"--workers 2: no process begins: .*; expected fewer, or more memory"):
         sweep.sweep(study_file, out=tmp_path / "out", workers=2, fmu_dir=fmu_dir)
+
+
+def test_all_workers_begin_side_by_side_and_no_more_than_there_are_rows(
+    study_file: Path, fmu_dir: Path, tmp_path: Path, monkeypatch: Any
+) -> None:
+    """One after the other, the last of many would come when the first has done its work."""
+    plain, begun = local._pool, []
+
+    def look(workers: int) -> Any:
+        pool = plain(workers)
+        begun.append((workers, len(pool._processes)))
+        return pool
+
+    monkeypatch.setattr(local, "_pool", look)
+    sweep.sweep(study_file, out=tmp_path / "few", workers=3, fmu_dir=fmu_dir)
+    study_file.write_text(WALL.replace("[10.0, 20.0, 30.0]", "[10.0]"))
+    sweep.sweep(study_file, out=tmp_path / "two", workers=3, fmu_dir=fmu_dir)
+    assert begun == [(3, 3), (2, 2)]
+
+
+def test_a_worker_of_this_machine_does_not_try_an_fmu_again_and_one_of_a_cluster_does(
+    study_file: Path, fmu_dir: Path, monkeypatch: Any
+) -> None:
+    found, scenario = study.load(study_file)
+    tried: list[str] = []
+    monkeypatch.setattr(trial, "_ENDED", {})
+    monkeypatch.setattr(trial, "_ended", lambda *_, **__: tried.append("one") or "")
+    monkeypatch.setattr(trial.child, "run", lambda _task: None)
+    for one, here in (("a", True), ("b", False)):
+        archives = ("Testbed.fmu", "TestbedController.fmu")
+        checksums = {name: hashlib.sha256((fmu_dir / name).read_bytes()).hexdigest() for name in archives}
+        task = work.Task(one, scenario, found.cases, found.metrics, None, None, fmu_dir, checksums, here)
+        trial._ENDED.clear()
+        _, done = work.run_chunk(task, [(0, found.rows()[0])])
+        work.close()
+        assert done[0].outcome.error is None
+        assert len(tried) == (0 if here else 2)
 
 
 def test_the_last_chunks_are_short_so_that_no_worker_waits_long_for_another_one() -> None:

@@ -19,6 +19,16 @@ SOLID = "-"
 DASHES: tuple[Any, ...] = (SOLID, (0, (6, 2)), (0, (4, 1.6, 1, 1.6)), (0, (1, 1.4)), (0, (2, 3)), (0, (9, 5)))
 #: Of the limits and other levels that a panel marks.
 MARK = {"color": "#444444", "linestyle": (0, (8, 2, 1, 2, 1, 2)), "linewidth": 0.9}
+#: Of the values 0, 1, … behind a panel, from nothing to a fault: grey, blue, orange, and hatches for those that stop.
+BANDS = (
+    ("#f7f7f7", ""),
+    ("#e0e0e0", ""),
+    ("#dceefa", ""),
+    ("#a9d4f0", ""),
+    ("#fde6bf", ""),
+    ("#f8c98b", ".."),
+    ("#e3a48f", "//"),
+)
 
 
 @dataclass(frozen=True)

@@ -11,7 +11,7 @@ from matplotlib import rcsetup
 from matplotlib.figure import Figure as Canvas
 
 from exo import curves, handfigures, poses, theory
-from exo.looks import BLACK, BLUE, CYCLE, MARK, VERMILLION, Look, looks
+from exo.looks import BANDS, BLACK, BLUE, CYCLE, MARK, VERMILLION, Look, looks
 from exo.metrics.basic import window
 from exo.metrics.loops import loop_of
 from exo.metrics.response import measured_response
@@ -35,16 +35,6 @@ STYLE: dict[str, Any] = {
     "savefig.dpi": 130,
     "axes.prop_cycle": rcsetup.cycler(color=list(CYCLE)),
 }
-#: Of the values 0, 1, … behind a panel, from nothing to a fault: grey, blue, orange, and hatches for those that stop.
-BANDS = (
-    ("#f7f7f7", ""),
-    ("#e0e0e0", ""),
-    ("#dceefa", ""),
-    ("#a9d4f0", ""),
-    ("#fde6bf", ""),
-    ("#f8c98b", ".."),
-    ("#e3a48f", "//"),
-)
 #: Of a legend: width of a letter, and of what stands before the letters.
 INCH_A_LETTER, INCH_A_HANDLE = 0.066, 0.52
 #: Height of a row of a legend.

@@ -7,7 +7,7 @@ from typing import Any
 
 import jsonschema
 
-from exo import earlier, folder, junit, manifest, plots, recording, scenes
+from exo import earlier, folder, junit, manifest, recording, scenes
 from exo.errors import ExoError
 from exo.experiment import Experiment
 from exo.kept import EVERYTHING, Kept
@@ -52,6 +52,9 @@ def write(*, experiment: Experiment, out: Path, kept: Kept = EVERYTHING) -> Path
 
 
 def _write(experiment: Experiment, *, out: Path, kept: Kept) -> None:
+    # What draws takes a third of a second to import: only where something is drawn.
+    from exo import plots  # noqa: PLC0415
+
     target = out / experiment.scenario.id
     document = json.dumps(metrics_document(experiment), indent=2, ensure_ascii=False)
     with folder.replaced(target) as fresh:

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.linalg import expm
 
 Array = NDArray[np.float64]
 
@@ -103,7 +103,7 @@ def error_at_a_wall(
     dynamics = np.zeros((3, 3))
     dynamics[0, 1] = 1.0
     dynamics[1] = [-alpha * K_P / M_n, -(D_n + alpha) / M_n, 1.0 / M_n]
-    step = expm(dynamics * T)
+    step = scipy.linalg.expm(dynamics * T)
     curve = np.empty_like(time)
     x, v = e, de
     for k, force in enumerate(f_h):
@@ -174,7 +174,7 @@ def _robot(*, M: float, b: float, T: float, substep: float, lag: float) -> Array
         flow[0, 1] = T
         flow[1] = np.array([0.0, -b, 1.0, 0.0, 1.0]) * T / M if lag else np.array([0.0, -b, 0.0, 1.0, 1.0]) * T / M
         flow[2] = np.array([0.0, 0.0, -lag, lag, 0.0]) * T
-        step = expm(flow)
+        step = scipy.linalg.expm(flow)
         step[:, 0] = np.eye(5)[0]  # nothing depends on the place, not by rounding either
     step.setflags(write=False)
     return step

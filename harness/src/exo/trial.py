@@ -14,7 +14,7 @@ from exo.validate.rule import printable
 
 #: Each is told before it is made: an instance is freed, or, of a wrong guid, refused.
 LAST_CALLS = ("fmi2FreeInstance", "fmi2Instantiate")
-#: What happened, by path, time of change and size: a file is tried once a process.
+#: What happened, by path, time of change and size: a file is tried once.
 _ENDED: dict[tuple[str, int, int], str] = {}
 
 
@@ -23,12 +23,24 @@ def check(archive: Archive) -> None:
 
     Its status codes are no matter here: the run that follows tells them.
     """
-    status = archive.path.stat()
-    key = (str(archive.path.resolve()), status.st_mtime_ns, status.st_size)
+    key = _key(archive.path)
     if key not in _ENDED:
         _ENDED[key] = _ended(child.run(_task(archive)), folder=archive.folder)
     if _ENDED[key]:
         raise FmuError(f"{archive.path}: tried in a process of its own, its library {_ENDED[key]}")
+
+
+def passed(path: Path) -> None:
+    """An archive that another process of this machine has tried; `check` does not try it again.
+
+    OSError, if it is gone.
+    """
+    _ENDED[_key(path)] = ""
+
+
+def _key(path: Path) -> tuple[str, int, int]:
+    status = path.stat()
+    return str(path.resolve()), status.st_mtime_ns, status.st_size
 
 
 def _ended(answer: child.Answer, *, folder: str) -> str:

@@ -8,7 +8,7 @@ from collections.abc import Iterable
 from pathlib import Path
 
 import pyarrow as pa
-import scipy.io
+import scipy
 
 from exo.errors import ExoError
 

@@ -3,8 +3,8 @@
 import math
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.optimize import least_squares
 
 from exo import forms, theory
 from exo.metrics.basic import values, window
@@ -28,7 +28,7 @@ def growth_rate(run: Recording, *, column: str, after: float, before: float) -> 
         swing = x[3] * np.sin(x[2] * time) + x[4] * np.cos(x[2] * time)
         return np.asarray(x[0] + np.exp(x[1] * time) * swing - scaled)
 
-    return float(least_squares(left, [0.0, 0.0, omega, 0.5, 0.5]).x[1])
+    return float(scipy.optimize.least_squares(left, [0.0, 0.0, omega, 0.5, 0.5]).x[1])
 
 
 @metric

@@ -5,8 +5,8 @@ from dataclasses import dataclass, replace
 from itertools import pairwise
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.optimize import brentq
 
 from exo import forms, theory
 from exo.metrics.basic import window
@@ -126,7 +126,7 @@ def hand_limit_of(run: Recording, *, controller: str, plant: str, operator: str)
 
     for soft, stiff in pairwise(STIFFNESSES):
         if growth(stiff) > 0.0:
-            return 0.0 if growth(soft) > 0.0 else float(brentq(growth, soft, stiff, rtol=1e-9))
+            return 0.0 if growth(soft) > 0.0 else float(scipy.optimize.brentq(growth, soft, stiff, rtol=1e-9))
     return math.inf
 
 

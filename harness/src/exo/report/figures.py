@@ -21,8 +21,7 @@ from numpy.typing import NDArray
 
 from exo.curves import printed
 from exo.errors import ExoError
-from exo.looks import DASHES, SOLID, Look, looks
-from exo.plots import BANDS
+from exo.looks import BANDS, DASHES, SOLID, Look, looks
 from exo.report import packed, thin
 from exo.scenario import Bands, Figure
 

@@ -113,6 +113,7 @@ def sweep(
             engine=engine,
             fmu_dir=folder.resolve() if scheduler is None else None,
             checksums=checksums,
+            tried=scheduler is None,
         )
         chunks: Iterator[Kept]
         if scheduler is not None:

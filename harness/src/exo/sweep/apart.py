@@ -1,7 +1,8 @@
 """Rows in a process beside a cluster's worker: an FMU that ends its process costs its own row, and no worker.
 
-The worker sends a task and then rows, one by one, as pickles; each is answered by what it has come to. The process ends
-when its input does, so that it never outlives the worker, and when nothing has come for a minute.
+The worker sends a task and then chunks of rows, as pickles; each is answered by what it has come to. Where one ends the
+process, its rows are sent again, each alone. The process ends when its input does, so that it never outlives the
+worker, and when nothing has come for a minute.
 """
 
 import os
@@ -27,10 +28,15 @@ from exo.sweep.work import ENDED, Chunk, Kept, Task, run_chunk
 ATTEMPTS = 2
 #: How long a process that was told to end may take (s).
 GONE_S = 2.0
-#: How long it waits for a row (s).
+#: How long it waits for a chunk (s).
 IDLE_S = 60.0
 #: What a process that is gone makes of its pipes.
 BROKEN = (OSError, EOFError, pickle.UnpicklingError)
+
+
+class _EndedError(Exception):
+    """The process has ended with what it was asked."""
+
 
 #: The process of this thread.
 _OPEN = threading.local()
@@ -73,34 +79,41 @@ class Apart:
 
     def run(self, chunk: Chunk) -> Kept:
         """As `run_chunk`; a row that ends the process twice is a failed row. ExoError as `run_chunk`."""
-        done = [self._row(number, row) for number, row in chunk]
+        if len(chunk) > 1:
+            with suppress(_EndedError):
+                return self._asked(chunk)
+        done = [one for row in chunk for one in self._alone(row)]
         return self._names, done
 
-    def _row(self, number: int, row: Mapping[str, Value]) -> Done:
-        done: list[Done]
+    def _alone(self, row: tuple[int, Mapping[str, Value]]) -> list[Done]:
         for _ in range(ATTEMPTS):
-            process = self._process
-            if process is None or process.poll() is not None:
-                process = self._begin()
-            try:
-                _send(process.stdin, (number, row))
-                answer = _received(process.stdout)
-            except BROKEN:
-                self.close()
-                # It has not closed what it had open.
-                extraction.sweep()
-                continue
-            if isinstance(answer, BaseException):
-                raise answer
-            self._names, done = answer
-            return done[0]
-        return Done(number, Outcome({}, ENDED), 0.0)
+            with suppress(_EndedError):
+                _, done = self._asked([row])
+                return done
+        return [Done(row[0], Outcome({}, ENDED), 0.0)]
+
+    def _asked(self, chunk: Chunk) -> Kept:
+        process = self._process
+        if process is None or process.poll() is not None:
+            process = self._begin()
+        try:
+            _send(process.stdin, chunk)
+            answer = _received(process.stdout)
+        except BROKEN as error:
+            self.close()
+            # It has not closed what it had open.
+            extraction.sweep()
+            raise _EndedError from error
+        if isinstance(answer, BaseException):
+            raise answer
+        self._names, done = answer
+        return self._names, done
 
     def _begin(self) -> subprocess.Popen[bytes]:
         self.close()
         command = [sys.executable, "-c", f"from {__name__} import main; main()"]
         try:
-            process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE)
+            process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, env=_environment())
             self._process = process
             _send(process.stdin, self._task)
             if _received(process.stdout) is None:
@@ -125,6 +138,12 @@ class Apart:
                     stream.close()
 
 
+def _environment() -> dict[str, str]:
+    """A worker's, but for what Dask sets for itself: memory would be given back after each row and be asked for again
+    before the next, which takes time."""
+    return {name: value for name, value in os.environ.items() if name != "MALLOC_TRIM_THRESHOLD_"}
+
+
 def _send(stream: IO[bytes] | None, what: Any) -> None:
     assert stream is not None
     pickle.dump(what, stream)
@@ -137,7 +156,7 @@ def _received(stream: IO[bytes] | None) -> Any:
 
 
 def main() -> None:
-    """The process: a task comes first, then its rows."""
+    """The process: a task comes first, then chunks of its rows."""
     answers = os.fdopen(os.dup(1), "wb")
     # What an FMU prints is no answer.
     os.dup2(2, 1)
@@ -147,12 +166,12 @@ def main() -> None:
     _send(answers, None)
     while True:
         try:
-            row = came.get(timeout=IDLE_S)
+            chunk: Chunk = came.get(timeout=IDLE_S)
         except queue.Empty:
             return
         answer: Any
         try:
-            answer = run_chunk(task, [row])
+            answer = run_chunk(task, chunk)
         except Exception as error:
             answer = error
         _send(answers, answer)

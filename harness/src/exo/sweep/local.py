@@ -35,7 +35,8 @@ def run(task: Task, queue: Queue, *, workers: int) -> Iterator[Kept]:
     """Runs all rows of the queue; yields what each chunk has come to. ExoError, if no worker begins."""
     names: list[str] = []
     while len(queue):
-        with _pool(workers) as pool:
+        # No more than have something to do.
+        with _pool(min(workers, len(queue))) as pool:
             running: dict[Future[Kept], Chunk] = {}
             try:
                 for kept in _until_broken(pool, task, queue, running, workers):
@@ -60,10 +61,11 @@ def _pool(workers: int) -> ProcessPoolExecutor:
         # A forked process would have this one's threads' locks.
         pool = ProcessPoolExecutor(workers, mp_context=multiprocessing.get_context("spawn"), initializer=_begin)
         try:
-            # What is sent first makes the processes.
+            # What is sent makes the processes: one each while none is idle. So all of them begin side by side.
             with _without_main():
-                begun = pool.submit(processors)
-            begun.result()
+                begun = [pool.submit(processors) for _ in range(workers)]
+            for one in begun:
+                one.result()
         except (BrokenProcessPool, OSError) as error:
             # One may have been killed as it began. The pool's own thread has ended when this returns.
             pool.shutdown(wait=True, cancel_futures=True)

@@ -41,8 +41,8 @@ from pathlib import Path
 from typing import Annotated, Any, Literal, Self
 
 import numpy as np
+import scipy
 from pydantic import Field, ValidationError, model_validator
-from scipy.stats import norm, qmc
 
 from exo import refused
 from exo import scenario as scenarios
@@ -96,7 +96,7 @@ class Axis(Data):
     def _widest(self) -> float:
         """The largest number that `at` computes with."""
         if self.mean is not None and self.deviation is not None:
-            return float(norm.ppf(SMALLEST, scale=self.deviation)) - abs(self.mean)
+            return float(scipy.stats.norm.ppf(SMALLEST, scale=self.deviation)) - abs(self.mean)
         if self.low is None or self.high is None:
             return 0.0
         return self.high / self.low if self.scale == "log" else self.high - self.low
@@ -118,7 +118,7 @@ class Axis(Data):
         if self.values:
             return self.values[min(int(share * len(self.values)), len(self.values) - 1)]
         if self.mean is not None and self.deviation is not None:
-            return float(norm.ppf(max(share, SMALLEST), loc=self.mean, scale=self.deviation))
+            return float(scipy.stats.norm.ppf(max(share, SMALLEST), loc=self.mean, scale=self.deviation))
         assert self.low is not None
         assert self.high is not None
         if self.scale == "log":
@@ -251,9 +251,9 @@ class Study(Data):
 def _shares(method: str, dimensions: int, samples: int, seed: int) -> np.ndarray[Any, np.dtype[np.float64]]:
     match method:
         case "latin_hypercube":
-            return np.asarray(qmc.LatinHypercube(dimensions, rng=seed).random(samples))
+            return np.asarray(scipy.stats.qmc.LatinHypercube(dimensions, rng=seed).random(samples))
         case "sobol":
-            return np.asarray(qmc.Sobol(dimensions, rng=seed).random(samples))
+            return np.asarray(scipy.stats.qmc.Sobol(dimensions, rng=seed).random(samples))
     return np.random.default_rng(seed).random((samples, dimensions))
 
 

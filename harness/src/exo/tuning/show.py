@@ -9,7 +9,6 @@ from typing import Any
 from rich.table import Table
 from rich.text import Text
 
-from exo.tuning import chart
 from exo.tuning.guide import KT_OVER_M_MAX, MARGIN, MN_OVER_M_MIN, AtMass, Guide
 from exo.tuning.region import Interval
 
@@ -206,5 +205,7 @@ def write(*, guide: Guide, out: Path) -> list[Path]:
     out.mkdir(parents=True, exist_ok=True)
     text, picture = out / "tune.json", out / "tune.png"
     text.write_text(json.dumps(document(guide), indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
+    from exo.tuning import chart  # noqa: PLC0415  matplotlib takes its time
+
     chart.draw(guide=guide, path=picture)
     return [text, picture]
