@@ -299,6 +299,23 @@ def test_the_handle_stays_below_the_mouse_from_however_far_it_is_seen(opened: Ca
     assert led() == pytest.approx(1.25**2 * near, rel=0.05)
 
 
+def test_a_handle_that_is_pushed_far_away_stays_in_the_picture(opened: Callable[..., Any]) -> None:
+    """The camera steps back, unless somebody has moved it, or the mouse leads the handle."""
+    page = opened("arm")
+    page.get_by_role("button", name="Names").click()
+
+    handle = page.locator(".er-tag", has_text="handle")
+    handle.wait_for(state="visible")
+    for _ in range(2):
+        page.get_by_role("button", name="Closer").click()
+    page.keyboard.down("ArrowUp")
+    until(page, "state.values['plant.p[3]'] > 0.55")
+    page.keyboard.up("ArrowUp")
+    handle.wait_for(state="hidden")
+    page.get_by_role("button", name="Side").click()
+    handle.wait_for(state="visible")
+
+
 @pytest.mark.parametrize("dark", [False, True])
 def test_text_stands_out_whatever_happens(dark: bool, opened: Callable[..., Any]) -> None:
     page = opened("testbed", dark=dark)

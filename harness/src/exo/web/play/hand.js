@@ -150,5 +150,5 @@ function playHand(bench, send, place, distance) {
   function update(state) {
     if (performance.now() - pressed > 700 && !down.size) show(state.push);
   }
-  return { update, release, cleared: () => sliders.some((one) => Number(one.slider.value)) && press(Array(axes).fill(0)) };
+  return { update, release, leads: () => held !== null, cleared: () => sliders.some((one) => Number(one.slider.value)) && press(Array(axes).fill(0)) };
 }

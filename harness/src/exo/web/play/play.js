@@ -41,7 +41,8 @@
   }
   function shape(geometry) {
     if (drawing) return drawing.reshape(geometry);
-    drawing = exoReplay.live(place, geometry);
+    // What the mouse leads stays below it: no step back meanwhile.
+    drawing = exoReplay.live(place, geometry, { still: () => hand.leads() });
     // The mouse leads the handle in this view.
     [...place.querySelectorAll("button")].find((one) => one.textContent === "Side")?.click();
     return undefined;

@@ -56,6 +56,8 @@ export function armDrawing({ geometry, scales, look }) {
       canvas.height = Math.round(height * density);
       canvas.style.width = `${width}px`;
       canvas.style.height = `${height}px`;
+      look.camera.aspect = width / height;
+      look.camera.updateProjectionMatrix();
     },
     paint(palette) {
       around.paint(palette);
@@ -96,6 +98,8 @@ export function armDrawing({ geometry, scales, look }) {
       picture(scene, camera, context);
       labels(texts(), camera, canvas.clientWidth, canvas.clientHeight, look.named);
     },
+    /** Where the handles are drawn (m). */
+    hands: () => seen.map(({ hand }) => hand),
     /** Where hand, pad and nominal hand of each arm are drawn (m). */
     pose: () => ({ arms: seen.map(({ hand, pad, nominal }) => ({ hand, pad, nominal: nominal?.at, away: nominal?.distance })), payload: load?.mesh.position.toArray() }),
     dispose() {

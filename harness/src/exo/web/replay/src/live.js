@@ -14,7 +14,8 @@ const USUAL = { f_h: 20, f_e: 500, tension: 200, tau_h: 5, tau_a: 12.5, tau_e: 2
 
 /**
  * Shows a plant whose state comes later. `geometry` is `exo.replay.geometry(parameters)`; `options.title` names it,
- * `options.largest` replaces what the arrows are scaled by (N, by column).
+ * `options.largest` replaces what the arrows are scaled by (N, by column). A camera that nobody has moved steps back where a
+ * handle would leave the picture, but not while `options.still()`.
  *
  * `update(state)` draws a state. Testbed: `time`, `q`, `q_n` (m), `tau_h`, `tau_a`, `tau_e`, `tau_d` (N), of which only `time`
  * and `q` must be there. Arm: `time`, `arms` with one object an arm, `q` (three joint angles, rad), `p_n` (m), `f_h`, `f_e`,
@@ -70,6 +71,7 @@ export function live(element, geometry, options = {}) {
     if (!state) return;
     const heard = shown.update(state, () => last);
     if (heard) say(news, heard);
+    if (!options.still?.()) camera?.keepIn(shown.drawing.hands());
     shown.drawing.render();
   }
   const unfollow = followTheme(root, (palette) => {

@@ -112,6 +112,7 @@ export function mount(element, scene, bus, options = {}) {
     if (!dirty) return;
     dirty = false;
     refresh();
+    camera?.keepIn(views.flatMap((one) => one.drawing.hands()));
     views.forEach((one) => one.drawing.render());
   }
   /** Poses follow the bus at once, pictures with the next frame. */
