@@ -18,7 +18,7 @@ from exo import folder, sweep
 from exo.commands.sweep import Line
 from exo.errors import ExoError
 from exo.runs import FAILURE
-from exo.sweep import store
+from exo.sweep import local, store
 
 from commands import exo
 from sweeping import WALL
@@ -125,6 +125,16 @@ def test_a_sweep_of_which_every_row_fails_is_no_success(study_file: Path, fmu_di
             in said
         )
         assert "K = -1 N.s/m, expected a value from" in said
+
+
+@pytest.mark.parametrize("workers", [-1, 0, 100_000])
+def test_as_many_workers_as_no_machine_bears_are_refused(
+    workers: int, study_file: Path, tmp_path: Path, fmu_dir: Path
+) -> None:
+    answer = exo("sweep", study_file, "--workers", workers, "--out", tmp_path, "--fmu-dir", fmu_dir)
+    assert answer.exit_code == 2
+    assert f"--workers {workers}: expected 1 to {local.MOST}" in answer.output
+    assert not list(tmp_path.glob("small"))
 
 
 def test_workers_and_a_cluster_are_not_asked_for_together(study_file: Path, tmp_path: Path, fmu_dir: Path) -> None:

@@ -82,8 +82,8 @@ def sweep(
     rows = study.rows()
     folder = find_fmu_dir(fmu_dir)
     names = sorted({part.archive for part in scenario.components.values()})
-    if workers is not None and workers < 1:
-        raise ExoError(f"--workers {workers}: expected 1 or more")
+    if workers is not None and not 1 <= workers <= local.MOST:
+        raise ExoError(f"--workers {workers}: expected 1 to {local.MOST}")
     if workers is not None and scheduler is not None:
         raise ExoError(
             f"--workers {workers}, --scheduler {scheduler}: expected one of them: a cluster has its own workers"

@@ -24,11 +24,14 @@ BEGINNINGS = 3
 #: How long a worker that was killed may take to be gone (s).
 GONE_S = 2.0
 MAIN = "__main__"
+#: Processes that a pool may have: Windows waits for no more at once; elsewhere more than these only take memory.
+MOST = 61 if os.name == "nt" else max(64, 4 * (os.cpu_count() or 1))
 
 
 def processors() -> int:
-    """How many this process may use."""
-    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+    """How many this process may use, and a pool may have."""
+    here = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+    return min(here, MOST)
 
 
 def run(task: Task, queue: Queue, *, workers: int) -> Iterator[Kept]:
