@@ -52,6 +52,25 @@ def test_a_row_that_ends_its_process_is_a_failed_row_and_costs_no_worker(
     assert [worker.pid for worker in cluster.workers.values()] == before
 
 
+def test_all_workers_begin_with_the_first_rows(
+    cluster: Any, study_file: Path, fmu_dir: Path, tmp_path: Path, monkeypatch: Any
+) -> None:
+    """Dask alone sends them where the FMUs are; another worker would come when that one has much to do."""
+    distributed = pytest.importorskip("distributed")
+    plain, sent = distributed.Client.submit, []
+
+    def submit(client: Any, function: Any, *arguments: Any, **settings: Any) -> Any:
+        if function is apart.run_chunk_apart:
+            sent.append((settings.get("workers"), settings.get("allow_other_workers")))
+        return plain(client, function, *arguments, **settings)
+
+    monkeypatch.setattr(distributed.Client, "submit", submit)
+    sweep.sweep(study_file, out=tmp_path / "out", scheduler=cluster.scheduler_address, fmu_dir=fmu_dir)
+    first, second = (worker.worker_address for worker in cluster.workers.values())
+    assert sorted(sent[:4]) == sorted(2 * [([first], True), ([second], True)])
+    assert set(sent[4:]) == {(None, None)}
+
+
 def test_of_a_chunk_the_row_that_ends_its_process_is_found_and_the_others_are_kept(
     study_file: Path, fmu_dir: Path, tmp_path: Path, monkeypatch: Any
 ) -> None:

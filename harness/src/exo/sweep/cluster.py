@@ -8,6 +8,7 @@ import asyncio
 import queue as queue_of
 import threading
 import time
+from collections import deque
 from collections.abc import Iterator, Mapping
 from importlib import metadata
 from typing import Any
@@ -157,12 +158,15 @@ def _all(client: Any, task: Task, queue: Queue, running: dict[Any, Chunk], sent:
     distributed, scheduler = _dask(), client.scheduler.address
     ended = distributed.as_completed(loop=client.loop)
     given_up = 0
+    # Dask sends tasks where their data are, and to others when those have much to do: here all begin at once.
+    begin = deque(AHEAD * [worker for worker, threads in client.nthreads().items() for _ in range(threads)])
     while len(queue) or running:
         threads = max(1, sum(client.nthreads().values()))
         while queue.admits(len(running), most=AHEAD * threads):
             chunk = queue.next(among=threads)
+            wanted: dict[str, Any] = {"workers": [begin.popleft()], "allow_other_workers": True} if begin else {}
             try:
-                future = client.submit(run_chunk_apart, task, list(chunk), sent, pure=False, retries=3)
+                future = client.submit(run_chunk_apart, task, list(chunk), sent, pure=False, retries=3, **wanted)
             except BaseException:
                 queue.wait_again(chunk)
                 raise
