@@ -71,6 +71,35 @@ def test_all_workers_begin_with_the_first_rows(
     assert set(sent[4:]) == {(None, None)}
 
 
+def test_each_worker_gets_a_row_before_any_gets_two() -> None:
+    assert cluster_of._places({"a": 3, "b": 1, "c": 2}) == ["a", "b", "c", "a", "c", "a"]
+    assert cluster_of._places({}) == []
+
+
+#: A process beside a worker that waits for a tenth of a second.
+IDLE = "from exo.sweep import apart; apart.IDLE_S = 0.1; apart.main()"
+
+
+def test_a_process_that_nobody_asks_ends_in_order(
+    study_file: Path, fmu_dir: Path, tmp_path: Path, monkeypatch: Any
+) -> None:
+    """Its folder is gone, and nothing stands in the worker's log."""
+    monkeypatch.setenv("TMPDIR", str(tmp_path))
+    found, scenario = study.load(study_file)
+    task = work.Task("t", scenario, found.cases, found.metrics, None, None, fmu_dir, {}, False)
+    pipe: Any = subprocess.PIPE
+    process = subprocess.Popen([sys.executable, "-c", IDLE], stdin=pipe, stdout=pipe, stderr=pipe)
+    with process:
+        apart._send(process.stdin, task)
+        assert apart._received(process.stdout) is None
+        apart._send(process.stdin, [(0, found.rows()[0])])
+        _, (done,) = apart._received(process.stdout)
+        assert done.outcome.error is None
+        assert process.wait(60.0) == 0
+        assert process.stderr.read() == b""
+    assert not list(tmp_path.glob("exo-*"))
+
+
 def test_of_a_chunk_the_row_that_ends_its_process_is_found_and_the_others_are_kept(
     study_file: Path, fmu_dir: Path, tmp_path: Path, monkeypatch: Any
 ) -> None:

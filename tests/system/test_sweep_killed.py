@@ -209,22 +209,58 @@ def test_processes_that_cannot_begin_are_one_sentence(
         sweep.sweep(study_file, out=tmp_path / "out", workers=2, fmu_dir=fmu_dir)
 
 
-def test_all_workers_begin_side_by_side_and_no_more_than_there_are_rows(
+def test_all_workers_begin_side_by_side_and_no_more_than_there_is_to_do(
     study_file: Path, fmu_dir: Path, tmp_path: Path, monkeypatch: Any
 ) -> None:
-    """One after the other, the last of many would come when the first has done its work."""
+    """One after the other, the last of many would come when the work is done. What may be deadly runs alone."""
     plain, begun = local._pool, []
 
-    def look(workers: int) -> Any:
-        pool = plain(workers)
-        begun.append((workers, len(pool._processes)))
+    def look(workers: int, *, begin: int) -> Any:
+        pool = plain(workers, begin=begin)
+        begun.append((begin, len(pool._processes)))
         return pool
 
     monkeypatch.setattr(local, "_pool", look)
     sweep.sweep(study_file, out=tmp_path / "few", workers=3, fmu_dir=fmu_dir)
+    assert begun == [(3, 3)]
+    (tmp_path / "sitecustomize.py").write_text(DEADLY)
+    monkeypatch.setenv("PYTHONPATH", str(tmp_path))
+    assert_one_row_is_deadly(sweep.sweep(study_file, out=tmp_path / "deadly", workers=3, fmu_dir=fmu_dir))
+    assert set(begun[1:]) == {(3, 3), (1, 1)}
+    begun.clear()
     study_file.write_text(WALL.replace("[10.0, 20.0, 30.0]", "[10.0]"))
     sweep.sweep(study_file, out=tmp_path / "two", workers=3, fmu_dir=fmu_dir)
-    assert begun == [(3, 3), (2, 2)]
+    assert begun == [(2, 2)]
+
+
+#: A sweep whose second worker begins when the first one waits for rows.
+LATE = """
+import time
+from concurrent.futures import ProcessPoolExecutor
+from pathlib import Path
+from exo.sweep import sweep
+
+print("begins", __name__)
+if __name__ == "__main__":
+    plain, waited = ProcessPoolExecutor.submit, []
+
+    def submit(pool, function, /, *arguments):
+        if not waited:
+            waited.append(plain(pool, abs, -1).result())
+            time.sleep(0.5)
+        return plain(pool, function, *arguments)
+
+    ProcessPoolExecutor.submit = submit
+done = sweep(Path({study!r}), out=Path({out!r}), workers=3, fmu_dir=Path({fmu_dir!r}))
+print(done.table.num_rows, done.failed)
+"""
+
+
+def test_a_worker_that_begins_late_runs_no_script_again(study_file: Path, fmu_dir: Path, tmp_path: Path) -> None:
+    script = tmp_path / "late.py"
+    script.write_text(LATE.format(study=str(study_file), out=str(tmp_path / "out"), fmu_dir=str(fmu_dir)))
+    answer = subprocess.run([sys.executable, script], text=True, capture_output=True, timeout=120, check=False)
+    assert (answer.returncode, answer.stdout) == (0, "begins __main__\n6 0\n"), answer.stderr
 
 
 def test_a_worker_of_this_machine_does_not_try_an_fmu_again_and_one_of_a_cluster_does(

@@ -60,3 +60,6 @@ app.command("benchmark")(measure.benchmark)
 app.command("sensitivity")(measure.measure_sensitivity)
 app.command("identify-tool")(identify_tool.identify_tool)
 app.command("tune")(tune.tune)
+
+if __name__ == "__main__":
+    app()

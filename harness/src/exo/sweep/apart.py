@@ -21,6 +21,7 @@ from exo import extraction
 from exo.errors import ExoError
 from exo.runs import Outcome
 from exo.scenario import Value
+from exo.sweep import work
 from exo.sweep.store import Done
 from exo.sweep.work import ENDED, Chunk, Kept, Task, run_chunk
 
@@ -139,8 +140,8 @@ class Apart:
 
 
 def _environment() -> dict[str, str]:
-    """A worker's, but for what Dask sets for itself: memory would be given back after each row and be asked for again
-    before the next, which takes time."""
+    """A worker's, but for what Dask sets there: with it, memory is given back after each row and asked for again before
+    the next, which takes time."""
     return {name: value for name, value in os.environ.items() if name != "MALLOC_TRIM_THRESHOLD_"}
 
 
@@ -168,7 +169,9 @@ def main() -> None:
         try:
             chunk: Chunk = came.get(timeout=IDLE_S)
         except queue.Empty:
-            return
+            work.close()
+            # The thread that reads holds the input: Python could not end in order.
+            os._exit(0)
         answer: Any
         try:
             answer = run_chunk(task, chunk)

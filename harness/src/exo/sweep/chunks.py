@@ -35,9 +35,14 @@ class Queue:
     def __len__(self) -> int:
         return len(self._waiting) + len(self._suspects)
 
+    @property
+    def alone(self) -> bool:
+        """Whether the next row runs alone."""
+        return bool(self._suspects)
+
     def next(self, among: int = 1) -> Chunk:
         """The next rows, none when none are left; `among` is how many workers share them."""
-        self._alone = bool(self._suspects)
+        self._alone = self.alone
         if self._alone:
             i = self._suspects.pop()
             return [(i, self._rows[i])]

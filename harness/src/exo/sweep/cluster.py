@@ -159,7 +159,7 @@ def _all(client: Any, task: Task, queue: Queue, running: dict[Any, Chunk], sent:
     ended = distributed.as_completed(loop=client.loop)
     given_up = 0
     # Dask sends tasks where their data are, and to others when those have much to do: here all begin at once.
-    begin = deque(AHEAD * [worker for worker, threads in client.nthreads().items() for _ in range(threads)])
+    begin = deque(AHEAD * _places(client.nthreads()))
     while len(queue) or running:
         threads = max(1, sum(client.nthreads().values()))
         while queue.admits(len(running), most=AHEAD * threads):
@@ -185,6 +185,11 @@ def _all(client: Any, task: Task, queue: Queue, running: dict[Any, Chunk], sent:
         given_up = 0
         queue.learn(done)
         yield names, done
+
+
+def _places(threads: Mapping[str, int]) -> list[str]:
+    """A worker for each of its threads; of each worker one, before any has two."""
+    return [worker for i in range(max(threads.values(), default=0)) for worker, own in threads.items() if i < own]
 
 
 def _next(client: Any, scheduler: str, ended: Any) -> Any:

@@ -38,8 +38,7 @@ def run(task: Task, queue: Queue, *, workers: int) -> Iterator[Kept]:
     """Runs all rows of the queue; yields what each chunk has come to. ExoError, if no worker begins."""
     names: list[str] = []
     while len(queue):
-        # No more than have something to do.
-        with _pool(min(workers, len(queue))) as pool:
+        with _pool(workers, begin=1 if queue.alone else min(workers, len(queue))) as pool:
             running: dict[Future[Kept], Chunk] = {}
             try:
                 for kept in _until_broken(pool, task, queue, running, workers):
@@ -57,8 +56,8 @@ def run(task: Task, queue: Queue, *, workers: int) -> Iterator[Kept]:
         extraction.sweep()
 
 
-def _pool(workers: int) -> ProcessPoolExecutor:
-    """A pool whose workers have begun. ExoError, if they do not, however often."""
+def _pool(workers: int, *, begin: int) -> ProcessPoolExecutor:
+    """A pool of which `begin` workers have begun. ExoError, if they do not, however often."""
     told = ""
     for _ in range(BEGINNINGS):
         # A forked process would have this one's threads' locks.
@@ -66,7 +65,7 @@ def _pool(workers: int) -> ProcessPoolExecutor:
         try:
             # What is sent makes the processes: one each while none is idle. So all of them begin side by side.
             with _without_main():
-                begun = [pool.submit(processors) for _ in range(workers)]
+                begun = [pool.submit(processors) for _ in range(begin)]
             for one in begun:
                 one.result()
         except (BrokenProcessPool, OSError) as error:
@@ -129,7 +128,9 @@ def _fill(
     while queue.admits(len(running), most=workers + 1):
         chunk = queue.next(among=workers)
         try:
-            running[pool.submit(run_chunk, task, chunk)] = chunk
+            # This, too, may make a process.
+            with _without_main():
+                running[pool.submit(run_chunk, task, chunk)] = chunk
         except BrokenProcessPool:
             queue.wait_again(chunk)
             raise

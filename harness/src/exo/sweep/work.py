@@ -78,8 +78,6 @@ def _check_archives(task: Task) -> None:
     for name, checksum in task.checksums.items():
         path = task.fmu_dir / name
         try:
-            if task.tried:
-                trial.passed(path)
             there = hashlib.sha256(path.read_bytes()).hexdigest()
         except OSError as error:
             raise ExoError(f"{path}: {error.strerror or error}; expected the FMU with which the sweep began") from error
@@ -87,6 +85,8 @@ def _check_archives(task: Task) -> None:
             raise ExoError(
                 f"{path}: has changed since the sweep began; expected the same FMU, or --fresh with this one"
             )
+        if task.tried:
+            trial.passed(path)
 
 
 def close() -> None:
