@@ -233,7 +233,7 @@ def test_all_workers_begin_side_by_side_and_no_more_than_there_is_to_do(
     assert begun == [(2, 2)]
 
 
-#: A sweep whose second worker begins when the first one waits for rows.
+#: A sweep whose other workers begin with the first rows: until then the first one is idle.
 LATE = """
 import time
 from concurrent.futures import ProcessPoolExecutor
@@ -242,13 +242,14 @@ from exo.sweep import sweep
 
 print("begins", __name__)
 if __name__ == "__main__":
-    plain, waited = ProcessPoolExecutor.submit, []
+    plain = ProcessPoolExecutor.submit
 
     def submit(pool, function, /, *arguments):
-        if not waited:
-            waited.append(plain(pool, abs, -1).result())
-            time.sleep(0.5)
-        return plain(pool, function, *arguments)
+        future = plain(pool, function, *arguments)
+        if function.__name__ == "processors":
+            future.result()
+            time.sleep(0.3)
+        return future
 
     ProcessPoolExecutor.submit = submit
 done = sweep(Path({study!r}), out=Path({out!r}), workers=3, fmu_dir=Path({fmu_dir!r}))
