@@ -257,11 +257,12 @@ print(done.table.num_rows, done.failed)
 """
 
 
-def test_a_worker_that_begins_late_runs_no_script_again(study_file: Path, fmu_dir: Path, tmp_path: Path) -> None:
-    script = tmp_path / "late.py"
+def test_a_worker_that_begins_late_runs_no_script_again(fmu_dir: Path, tmp_path: Path) -> None:
+    study_file, script = tmp_path / "long.toml", tmp_path / "late.py"
+    study_file.write_text(LONG)
     script.write_text(LATE.format(study=str(study_file), out=str(tmp_path / "out"), fmu_dir=str(fmu_dir)))
     answer = subprocess.run([sys.executable, script], text=True, capture_output=True, timeout=120, check=False)
-    assert (answer.returncode, answer.stdout) == (0, "begins __main__\n6 0\n"), answer.stderr
+    assert (answer.returncode, answer.stdout) == (0, f"begins __main__\n{LONG_ROWS} 0\n"), answer.stderr
 
 
 def test_a_worker_of_this_machine_does_not_try_an_fmu_again_and_one_of_a_cluster_does(
