@@ -15,6 +15,8 @@ NOT_HERE = {
     "manifest.json": "results/<scenario>/",
     "earlier.json": "results/<scenario>/",
     "junit.xml": "results/<scenario>/",
+    "scene.json": "results/<scenario>/",
+    "earlier.json": "results/<scenario>/",
     "figures/": "results/<scenario>/",
     "tune.json": "exo tune",
     "tune.png": "exo tune",
