@@ -16,7 +16,6 @@ NOT_HERE = {
     "earlier.json": "results/<scenario>/",
     "junit.xml": "results/<scenario>/",
     "scene.json": "results/<scenario>/",
-    "earlier.json": "results/<scenario>/",
     "figures/": "results/<scenario>/",
     "tune.json": "exo tune",
     "tune.png": "exo tune",
