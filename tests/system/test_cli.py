@@ -1,6 +1,7 @@
 """The command: exit codes, messages, and what it leaves on disk."""
 
 import json
+import os
 import re
 import shlex
 import shutil
@@ -280,3 +281,34 @@ def test_a_ctrl_c_in_the_first_second_shows_no_traceback(at: str) -> None:
     command = [sys.executable, "-c", INTERRUPTED, at, "list"]
     ended = subprocess.run(command, capture_output=True, text=True, check=False)
     assert (ended.returncode, ended.stdout, ended.stderr) == (-signal.SIGINT, "", "")
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="no file of this system is always full")
+@pytest.mark.parametrize(
+    "arguments", [["--version"], ["--help"], ["run", "--help"], ["list"], ["validate", "FMU", "--no-load"]]
+)
+def test_a_log_on_a_full_disk_is_a_sentence_and_a_reader_that_has_gone_is_141(
+    arguments: list[str], fmu_dir: Path
+) -> None:
+    command = [
+        sys.executable,
+        "-m",
+        "exo",
+        *(str(fmu_dir / "Testbed.fmu") if one == "FMU" else one for one in arguments),
+    ]
+    with Path("/dev/full").open("w") as full:
+        ended = subprocess.run(command, stdout=full, stderr=subprocess.PIPE, text=True, check=False)
+    assert ended.returncode == 2
+    assert re.fullmatch(r"exo: (standard output: )?No space left on device\n", ended.stderr)
+    reads, writes = os.pipe()
+    os.close(reads)
+    ended = subprocess.run(command, stdout=writes, stderr=subprocess.PIPE, text=True, check=False)
+    os.close(writes)
+    assert (ended.returncode, ended.stderr) == (141, "")
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="no file of this system is always full")
+def test_a_message_that_cannot_be_printed_leaves_the_exit_code() -> None:
+    with Path("/dev/full").open("w") as full:
+        ended = subprocess.run([sys.executable, "-m", "exo", "run", "nosuch"], stderr=full, check=False)
+    assert ended.returncode == 2

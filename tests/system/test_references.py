@@ -280,3 +280,12 @@ def test_recording_into_an_outdated_folder_fails_until_it_is_blessed(fmu_dir: Pa
     assert "out of date" in old.output
     assert CliRunner().invoke(app, [*command, "--bless"]).exit_code == 0
     assert CliRunner().invoke(app, command).exit_code == 0
+
+
+def test_an_fmu_with_references_whose_description_cannot_be_read_is_no_good_one(fmu_dir: Path, tmp_path: Path) -> None:
+    with zipfile.ZipFile(fmu_dir / "Testbed.fmu") as good, zipfile.ZipFile(tmp_path / "bad.fmu", "w") as bad:
+        for one in good.infolist():
+            bad.writestr(one, b"" if one.filename == "modelDescription.xml" else good.read(one))
+    answer = CliRunner().invoke(app, ["references", str(tmp_path / "bad.fmu")])
+    assert answer.exit_code == 2
+    assert "bad.fmu: modelDescription.xml: cannot be read; `exo validate` says what is wrong" in answer.output

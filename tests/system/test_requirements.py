@@ -307,3 +307,9 @@ def test_two_files_that_judge_the_same_are_refused():
         experiment._required(
             (data, data), scenario=scenario, recordings={"a": recorded(plant__x=np.zeros(5))}, changed={"a": ()}
         )
+
+
+def test_a_folder_of_results_that_is_not_there_is_refused(tmp_path: Path):
+    answer = exo("requirements", "--results", tmp_path / "reslts")
+    assert answer.exit_code == 2
+    assert f"--results {tmp_path / 'reslts'}: no such folder" in answer.output

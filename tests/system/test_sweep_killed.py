@@ -30,9 +30,14 @@ def command(file: Path, out: Path, fmu_dir: Path, *more: str) -> subprocess.Pope
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         start_new_session=True,
-        # A job in the background has SIGINT ignored, and its children, too.
-        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),  # noqa: PLW1509  one thread here
+        # A job in the background has SIGINT ignored, one of nohup SIGHUP, and their children, too.
+        preexec_fn=_hear,  # noqa: PLW1509  one thread here
     )
+
+
+def _hear() -> None:
+    for one in (signal.SIGINT, signal.SIGHUP):
+        signal.signal(one, signal.SIG_DFL)
 
 
 def wait_for_parts(folder: Path, count: int, process: subprocess.Popen[str]) -> None:
@@ -52,9 +57,11 @@ def whole(fmu_dir: Path, tmp_path_factory: pytest.TempPathFactory) -> sweep.Swep
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="signals")
-@pytest.mark.parametrize("how", [signal.SIGKILL, signal.SIGINT])
+@pytest.mark.parametrize(
+    ("how", "code"), [(signal.SIGKILL, -9), (signal.SIGINT, 130), (signal.SIGHUP, 129), (signal.SIGTERM, 143)]
+)
 def test_a_killed_sweep_goes_on_with_every_row_once(
-    how: int, whole: sweep.Swept, fmu_dir: Path, tmp_path: Path
+    how: int, code: int, whole: sweep.Swept, fmu_dir: Path, tmp_path: Path
 ) -> None:
     file, out = tmp_path / "long.toml", tmp_path / "out"
     file.write_text(LONG)
@@ -62,11 +69,13 @@ def test_a_killed_sweep_goes_on_with_every_row_once(
     wait_for_parts(out / "long", 3, killed)
     if how == signal.SIGKILL:
         os.kill(killed.pid, how)
-    else:  # Ctrl-C goes to all of a terminal's processes
+    else:  # Ctrl-C goes to all of a terminal's processes, and so does that it closes
         os.killpg(killed.pid, how)
     _, said = killed.communicate(timeout=60)
     wait_for_the_last_of(killed.pid)
-    assert killed.returncode == (-9 if how == signal.SIGKILL else 130), said
+    assert killed.returncode == code, said
+    assert "Traceback" not in said
+    assert "resource_tracker" not in said or how == signal.SIGKILL
     before = store.Store.done(_store(out / "long"))
     assert 0 < len(before) < LONG_ROWS
     told: list[sweep.Progress] = []

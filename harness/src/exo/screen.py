@@ -8,13 +8,15 @@ import signal
 import sys
 import threading
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
+from typing import Any
 
 import typer
 from rich.console import Console
 from rich.table import Table
 from rich.text import Text
+from typer.core import TyperGroup
 
 from exo.compare import Difference
 from exo.errors import ExoError
@@ -33,8 +35,15 @@ INTERRUPTED, BROKEN_PIPE, SIGNALLED = 130, 141, 128
 #: What a terminal that is closed and what a system that shuts down sends. Windows has no SIGHUP.
 ENDS = tuple(getattr(signal, name) for name in ("SIGHUP", "SIGTERM") if hasattr(signal, name))
 
-console = Console(highlight=False, soft_wrap=True)
-errors = Console(stderr=True, highlight=False, soft_wrap=True)
+
+class _Console(Console):
+    def on_broken_pipe(self) -> None:
+        """rich would end with exit code 1, which is that of a failed verdict."""
+        raise BrokenPipeError
+
+
+console = _Console(highlight=False, soft_wrap=True)
+errors = _Console(stderr=True, highlight=False, soft_wrap=True)
 
 
 def take_any_letter() -> None:
@@ -42,6 +51,48 @@ def take_any_letter() -> None:
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors="backslashreplace")
+
+
+class Commands(TyperGroup):
+    """The commands; what they print, and what their help prints, may have nowhere to go."""
+
+    def make_context(self, *arguments: Any, **settings: Any) -> Any:
+        with _printed():
+            return super().make_context(*arguments, **settings)
+
+    def invoke(self, ctx: Any) -> Any:
+        with _printed():
+            return super().invoke(ctx)
+
+
+@contextmanager
+def _printed() -> Iterator[None]:
+    """Exit code 141 where who reads has seen enough, as `head`; 2 and a sentence where the disk of a log is full."""
+    try:
+        try:
+            yield
+        finally:
+            if sys.stdout is not None:
+                sys.stdout.flush()
+    except BrokenPipeError as error:
+        _drop_output()
+        raise typer.Exit(BROKEN_PIPE) from error
+    except SystemExit as error:
+        # By the console that prints help.
+        if isinstance(error.__context__, BrokenPipeError):
+            raise typer.Exit(BROKEN_PIPE) from error
+        raise
+    except OSError as error:
+        _drop_output()
+        with suppress(OSError):
+            errors.print(f"exo: {error.filename or 'standard output'}: {error.strerror or error}", markup=False)
+        raise typer.Exit(2) from error
+
+
+def _drop_output() -> None:
+    """What is still buffered has nowhere to go."""
+    with suppress(OSError, ValueError):
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 @contextmanager
@@ -59,10 +110,8 @@ def sentences() -> Iterator[None]:
     except MemoryError as error:
         errors.print("exo: out of memory; expected fewer cases, a shorter duration or a longer step", markup=False)
         raise typer.Exit(2) from error
-    except BrokenPipeError as error:
-        # Who reads has seen enough, as `head`. What is still buffered has nowhere to go.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        raise typer.Exit(BROKEN_PIPE) from error
+    except BrokenPipeError:
+        raise
     except OSError as error:
         where = f"{error.filename}: " if error.filename else ""
         errors.print(f"exo: {where}{error.strerror or error}", markup=False)

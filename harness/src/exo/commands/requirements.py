@@ -19,11 +19,16 @@ def list_requirements(
         Path | None, typer.Argument(help="A file of requirements; without it those of the project.")
     ] = None,
     *,
-    results: Annotated[Path, typer.Option(help="Folder of results whose margins are shown.")] = Path("results"),
+    results: Annotated[
+        Path | None, typer.Option(help="Folder of results whose margins are shown; else results.")
+    ] = None,
     as_json: AsJson = False,
 ) -> None:
     """Lists requirements, formulas and the smallest margins in the results; exit code 1 when one is broken."""
     with sentences():
+        if results is not None and not results.is_dir():
+            raise ExoError(f"--results {results}: no such folder; expected one that exo run has left")
+        results = results or Path("results")
         data = required.built_in() if file is None else required.load(file)
         if file is not None:
             required.check(data, file, done=[one.parent.name for one in results.glob(f"*/{folder.METRICS}")])

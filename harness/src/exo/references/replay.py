@@ -9,6 +9,7 @@ import fmpy
 import numpy as np
 from numpy.typing import NDArray
 
+from exo.errors import FmuError
 from exo.references import experiments, manifest, parameters, series
 from exo.references.experiments import TRANSIENT, Experiment, File
 from exo.references.names import EXPERIMENTS_TYPE, FOLDER, MANIFEST, OLD_EXPERIMENTS_TYPE, SSV_TYPE
@@ -28,17 +29,23 @@ STOP, STEPS = 1.0, 1000
 DEFAULT = "(default)"
 #: More steps than any smoke test needs; an importer would wait for an hour.
 MAX_STEPS = 10_000_000
+UNREADABLE = "references: the description cannot be read"
 
 
 def replay(path: Path, *, run: bool = True) -> Replay:
     """Reads the references of an FMU and, with `run`, plays its experiments, each in a process of its own.
 
     Nothing happens where there are none. What is wrong is a finding, also with the archive; FmuError where it cannot be
-    extracted.
+    extracted, or where there are references and its description cannot be read.
     """
     with ExitStack() as stack:
         contents, found = open_archive(path, stack)
-        return look(contents, path, run=run) if contents is not None else Replay(found)
+        if contents is None:
+            return Replay(found)
+        answer = look(contents, path, run=run)
+    if UNREADABLE in answer.skipped:
+        raise FmuError(f"{path}: modelDescription.xml: cannot be read; `exo validate` says what is wrong with it")
+    return answer
 
 
 def look(contents: Contents, path: Path, *, run: bool) -> Replay:
@@ -50,7 +57,7 @@ def look(contents: Contents, path: Path, *, run: bool) -> Replay:
     try:
         description = fmpy.read_model_description(str(path), validate=False)
     except Exception:  # fmpy raises what its parts raise; what is wrong the validator says
-        answer.skipped.append("references: the description cannot be read")
+        answer.skipped.append(UNREADABLE)
         return answer
     with ExitStack() as stack:
         _Reader(contents, description, answer).read(where, stack if run else None)

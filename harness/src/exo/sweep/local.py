@@ -61,10 +61,11 @@ def _pool(workers: int, *, begin: int) -> ProcessPoolExecutor:
     told = ""
     for _ in range(BEGINNINGS):
         # A forked process would have this one's threads' locks.
-        pool = ProcessPoolExecutor(workers, mp_context=multiprocessing.get_context("spawn"), initializer=_begin)
+        with _spawning():
+            pool = ProcessPoolExecutor(workers, mp_context=multiprocessing.get_context("spawn"), initializer=_begin)
         try:
             # What is sent makes the processes: one each while none is idle. So all of them begin side by side.
-            with _without_main():
+            with _spawning():
                 begun = [pool.submit(processors) for _ in range(begin)]
             for one in begun:
                 one.result()
@@ -81,13 +82,20 @@ def _pool(workers: int, *, begin: int) -> ProcessPoolExecutor:
 
 
 @contextmanager
-def _without_main() -> Iterator[None]:
-    """Hides the script that calls: a new process would run it again, with its sweep, where no `__main__` guards it."""
+def _spawning() -> Iterator[None]:
+    """Of what begins meanwhile.
+
+    The script that calls is hidden: a new process would run it again, with its sweep, where no `__main__` guards it.
+    A terminal that closes is for this process to hear: the others, multiprocessing's tracker too, end with it.
+    """
     script = sys.modules[MAIN]
     sys.modules[MAIN] = ModuleType(MAIN)
+    masked = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGHUP}) if hasattr(signal, "pthread_sigmask") else None
     try:
         yield
     finally:
+        if masked is not None:
+            signal.pthread_sigmask(signal.SIG_SETMASK, masked)
         sys.modules[MAIN] = script
 
 
@@ -129,7 +137,7 @@ def _fill(
         chunk = queue.next(among=workers)
         try:
             # This, too, may make a process.
-            with _without_main():
+            with _spawning():
                 running[pool.submit(run_chunk, task, chunk)] = chunk
         except BrokenProcessPool:
             queue.wait_again(chunk)
