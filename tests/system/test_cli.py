@@ -312,3 +312,11 @@ def test_a_message_that_cannot_be_printed_leaves_the_exit_code() -> None:
     with Path("/dev/full").open("w") as full:
         ended = subprocess.run([sys.executable, "-m", "exo", "run", "nosuch"], stderr=full, check=False)
     assert ended.returncode == 2
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="HOME")
+def test_a_home_that_cannot_be_written_is_no_matter(short: Path, tmp_path: Path, fmu_dir: Path) -> None:
+    command = [sys.executable, "-m", "exo", "run", short, "--out", tmp_path / "out", "--fmu-dir", fmu_dir]
+    homeless = {name: value for name, value in os.environ.items() if not name.startswith(("MPL", "XDG"))}
+    ended = subprocess.run(command, env={**homeless, "HOME": "/dev/null"}, capture_output=True, text=True, check=False)
+    assert (ended.returncode, ended.stderr) == (0, "")

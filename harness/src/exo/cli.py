@@ -1,5 +1,6 @@
 """The command `exo`. Exit codes: 0 good, 1 a failed verdict (or difference, or problem), 2 a wrong command."""
 
+import logging
 from typing import Annotated
 
 import typer
@@ -39,6 +40,8 @@ def main(
     ] = False,
 ) -> None:
     screen.take_any_letter()
+    # Of its cache and its fonts; what cannot be drawn is an exception.
+    logging.getLogger("matplotlib").setLevel(logging.ERROR)
 
 
 main.__doc__ = __doc__
