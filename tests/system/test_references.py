@@ -280,3 +280,18 @@ def test_recording_into_an_outdated_folder_fails_until_it_is_blessed(fmu_dir: Pa
     assert "out of date" in old.output
     assert CliRunner().invoke(app, [*command, "--bless"]).exit_code == 0
     assert CliRunner().invoke(app, command).exit_code == 0
+
+
+@pytest.mark.parametrize("there", [(), ("ArmController", "ExoskeletonArm")])
+def test_recording_without_an_fmu_names_it_and_the_command(
+    there: tuple[str, ...], fmu_dir: Path, tmp_path: Path
+) -> None:
+    built = tmp_path / "built"
+    built.mkdir()
+    for name in there:
+        (built / f"{name}.fmu").symlink_to(fmu_dir / f"{name}.fmu")
+    answer = CliRunner().invoke(app, ["record", str(tmp_path / "references"), "--fmu-dir", str(built), "--bless"])
+    assert answer.exit_code == 2
+    missing = "ExoskeletonArms" if there else "ArmController"
+    assert answer.stderr == f"exo: {built / missing}.fmu: no such FMU: run `cargo xtask fmu` first\n"
+    assert not (tmp_path / "references").exists()
