@@ -14,6 +14,7 @@ import pyarrow.parquet
 from numpy.typing import NDArray
 
 from exo.errors import ExoError, close_matches
+from exo.folder import check_name
 from exo.pace import Deadlines
 from exo.scenario import Segment
 
@@ -119,6 +120,7 @@ def write(table: pa.Table, path: Path, *, csv: bool = False) -> None:
 
 def read(path: Path) -> dict[str, NDArray[Any]]:
     """Columns of a Parquet or CSV file; CSV may be what `exo run --csv` or what `exo export` has left."""
+    check_name(path)
     try:
         match path.suffix:
             case ".parquet":

@@ -11,7 +11,7 @@ from pydantic import ValidationError
 from exo import metrics_file
 from exo import scenario as scenarios
 from exo.errors import ExoError, ScenarioError
-from exo.folder import MANIFEST, METRICS
+from exo.folder import MANIFEST, METRICS, check_name
 from exo.report.verdicts import Before, Row, row
 from exo.scenario import Scenario
 
@@ -75,6 +75,7 @@ class Section:
 
 def read(folder: Path, before: Before) -> Section:
     """The results in `folder`. ExoError: there are none, or they are no results of this version."""
+    check_name(folder)
     if not (folder / METRICS).exists():
         raise ExoError(f"{folder / METRICS}: missing: run `exo run {folder.name}` first")
     document = metrics_file.read(folder / METRICS)
