@@ -86,6 +86,8 @@ def _check(validator: Any, document: Any, path: Path) -> None:
     error = jsonschema.exceptions.best_match(validator.iter_errors(document))
     if error is None:
         return
+    # Of null or a table: what the table lacks says more than that it is not null.
+    error = next((one for one in error.context if one.validator != "type"), error)
     place = ".".join(str(step) for step in error.absolute_path) or "the whole"
     if error.validator in ("required", "additionalProperties"):
         said = f"{error.message:.{LISTED}}"
