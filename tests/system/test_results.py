@@ -232,7 +232,7 @@ OF_THE_PAGE = [
     (("run", "cases"), GONE, "run: 'cases' is a required property"),
     (("run", "cases"), {}, "run.cases: got {}; expected minProperties 1"),
     ((*MOVED, "expected"), None, 'metrics.moved/push.expected: got null; expected type "number"'),
-    ((*MOVED, "paper"), {"label": "eq:1"}, "metrics.moved/push.paper: 'quantity' is a required property"),
+    ((*MOVED, "paper"), {"label": "a figure"}, "metrics.moved/push.paper: 'quantity' is a required property"),
 ]
 OF_ALL = [
     ((*MOVED, "value"), GONE, "metrics.moved/push: 'value' is a required property"),
