@@ -10,6 +10,7 @@ from pathlib import Path
 
 import numpy as np
 import pyarrow as pa
+import pyarrow.parquet as pq
 import pytest
 
 from exo import recording
@@ -110,6 +111,52 @@ def test_a_broken_file_is_named(data: bytes, tmp_path: Path) -> None:
     answer = exo("compare", tmp_path / "a.parquet", tmp_path / "a.parquet")
     assert (answer.exit_code, "error of exo itself" in answer.stderr) == (2, False)
     assert "a.parquet" in answer.stderr
+
+
+@pytest.mark.parametrize(
+    ("data", "said"),
+    [
+        ("time,Stöße\n0,1\n1,2\n".encode("latin-1"), "is no UTF-8; expected"),
+        (b"time,q\n0,1\n1,\xe4\n", "is no UTF-8; expected"),
+        (b"time,q,q\n0,1,2\n1,2,3\n", "column q is there twice; expected each name once"),
+        (b"time,q\ns,m\n0,far\n", "q: expected numbers"),
+        (b"time,q\n0," + b"1" * 200_000 + b'\n"', "cannot be read"),
+    ],
+)
+def test_a_table_of_another_program_that_cannot_be_compared_is_named(data: bytes, said: str, tmp_path: Path) -> None:
+    path = tmp_path / "a.csv"
+    path.write_bytes(data)
+    answer = exo("compare", path, path)
+    assert (answer.exit_code, "error of exo itself" in answer.stderr) == (2, False), answer.stderr
+    assert answer.stderr.startswith(f"exo: {path}: ")
+    assert said in answer.stderr
+
+
+def test_a_unit_that_is_no_utf_8_is_shown_as_far_as_it_goes(tmp_path: Path) -> None:
+    path = tmp_path / "a.parquet"
+    pq.write_table(
+        pa.table([[1.0]], schema=pa.schema([pa.field("q", pa.float64(), metadata={"unit": b"\xb0C"})])), path
+    )
+    assert exo("compare", path, path).exit_code == 0
+    assert recording.units_of(path) == {"q": "\ufffdC"}
+
+
+@pytest.mark.parametrize("options", [(), ("--excel", "--decimal", "point"), ("--excel", "--decimal", "comma")])
+def test_an_exported_table_is_no_different_from_its_run_and_has_its_units(
+    options: tuple[str, ...], tmp_path: Path
+) -> None:
+    values = [0.1, NAN, -2.5e-30]
+    run = table(tmp_path / "a", values)
+    assert exo("export", run, "--out", tmp_path / "out", *options).exit_code == 0
+    exported = tmp_path / "out" / "a.csv"
+    assert exported.read_text(encoding="utf-8-sig").splitlines()[1][:2] in ("s,", "s;")
+    answer = exo("compare", run, exported, "--tolerance", 0)
+    assert answer.exit_code == 0, answer.output
+    other = table(tmp_path / "b", [0.1, NAN, 1.0])
+    assert exo("export", other, "--out", tmp_path / "out", *options).exit_code == 0
+    (row,) = [d for d in compare(exported, tmp_path / "out" / "b.csv") if d.name == LONG_NAME]
+    assert (row.a, row.b, row.unit) == (0.1, 1.0, "N")
+    assert row.share == pytest.approx(1.0)
 
 
 @pytest.mark.parametrize("tolerance", ["nan", "-1"])

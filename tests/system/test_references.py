@@ -289,3 +289,18 @@ def test_an_fmu_with_references_whose_description_cannot_be_read_is_no_good_one(
     answer = CliRunner().invoke(app, ["references", str(tmp_path / "bad.fmu")])
     assert answer.exit_code == 2
     assert "bad.fmu: modelDescription.xml: cannot be read; `exo validate` says what is wrong" in answer.output
+
+
+@pytest.mark.parametrize("there", [(), ("ArmController", "ExoskeletonArm")])
+def test_recording_without_an_fmu_names_it_and_the_command(
+    there: tuple[str, ...], fmu_dir: Path, tmp_path: Path
+) -> None:
+    built = tmp_path / "built"
+    built.mkdir()
+    for name in there:
+        (built / f"{name}.fmu").symlink_to(fmu_dir / f"{name}.fmu")
+    answer = CliRunner().invoke(app, ["record", str(tmp_path / "references"), "--fmu-dir", str(built), "--bless"])
+    assert answer.exit_code == 2
+    missing = "ExoskeletonArms" if there else "ArmController"
+    assert answer.stderr == f"exo: {built / missing}.fmu: no such FMU: run `cargo xtask fmu` first\n"
+    assert not (tmp_path / "references").exists()

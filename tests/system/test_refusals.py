@@ -1,5 +1,6 @@
 """What a user can get wrong at the command `exo`: one sentence, exit code 2, and nothing runs or stays behind."""
 
+import os
 import re
 import tempfile
 import time
@@ -151,6 +152,19 @@ def test_a_place_for_results_that_cannot_be_written_is_refused_before_anything_r
     (tmp_path / "file").write_text("mine", encoding="utf-8")
     assert_refused(run(SHORT, "--out", tmp_path / place), "--out", "cannot be written")
     assert (tmp_path / "file").read_text(encoding="utf-8") == "mine"
+
+
+def test_a_name_that_is_no_utf_8_is_refused_before_anything_runs(run: Any, tmp_path: Path, study_file: Path) -> None:
+    odd = tmp_path / os.fsdecode(b"o\xff")
+    assert_refused(run(SHORT, "--out", odd), "o\\udcff: its name is no UTF-8; expected another folder")
+    assert_refused(exo("sweep", study_file, "--out", odd), "o\\udcff", "its name is no UTF-8")
+    assert not odd.exists()
+    (odd / "signals").mkdir(parents=True)
+    (odd / "metrics.json").write_text("{}", encoding="utf-8")
+    (odd / "signals" / "a.parquet").write_bytes(b"")
+    assert_refused(exo("compare", odd / "signals" / "a.parquet", odd / "signals" / "a.parquet"), "is no UTF-8")
+    assert_refused(exo("export", odd, "--out", tmp_path / "export"), "is no UTF-8")
+    assert_refused(exo("report", "--out", tmp_path), "o\\udcff: its name is no UTF-8")
 
 
 def test_a_folder_that_holds_something_else_is_not_overwritten(run: Any, tmp_path: Path) -> None:

@@ -172,14 +172,16 @@ def test_a_file_that_is_wrong_says_where(tmp_path: Path):
     path = tmp_path / "requirements.toml"
     for text, said in (
         ("[requirements", "end of a table"),
-        ("[requirements]", "requirements"),
+        ("", "toml: requirements: missing; expected a value"),
+        ("[requirements]", "toml: requirements: got none; expected at least 1"),
+        ("[requirements.r]\ntext=1979-05-27", r"requirements\.r\.text: got datetime.date\(1979, 5, 27\); expected"),
         ("[requirements.r]\ntext='t'\nsorce='s'", r"requirements\.r\.sorce: unknown key, .* \(close matches: source"),
         ("a = 1979-05-27", "a"),
     ):
         path.write_text(text, encoding="utf-8")
         with pytest.raises(ScenarioError, match=said):
             load(path)
-    with pytest.raises(ScenarioError, match="cannot be read"):
+    with pytest.raises(ScenarioError, match="cannot be read: No such file or directory; expected"):
         load(tmp_path / "none.toml")
 
 

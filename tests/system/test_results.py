@@ -4,11 +4,13 @@ import hashlib
 import json
 import os
 import re
+import shutil
 import signal
 import subprocess
 import sys
 import time
 from pathlib import Path
+from typing import Any
 from xml.etree import ElementTree as ET
 
 import pytest
@@ -17,6 +19,18 @@ from exo import __version__, folder, junit, recording
 from exo.fmu import Archive
 
 from commands import SHORT, exo
+
+REQUIREMENT = """
+[requirements.reach]
+text = "The mass gets far."
+source = "here"
+[requirements.reach.shown.end]
+title = "position"
+scenario = "short"
+formula = "eventually(q >= 0.1)"
+unit = "m"
+signals.q = "plant.q"
+"""
 
 
 @pytest.fixture
@@ -207,3 +221,71 @@ def test_a_file_is_replaced_as_a_whole(tmp_path: Path) -> None:
         folder.write_file(path, None)  # type: ignore[arg-type]
     assert path.read_bytes() == b"one"
     assert [one.name for one in tmp_path.iterdir()] == ["a"]
+
+
+GONE: Any = object()
+MOVED = ("metrics", "moved/push")
+#: Place in metrics.json, what stands there instead, and what is said of it. The first ones only the page reads.
+OF_THE_PAGE = [
+    (("run",), GONE, "'run' is a required property"),
+    (("verdict",), GONE, "'verdict' is a required property"),
+    (("run", "cases"), GONE, "run: 'cases' is a required property"),
+    (("run", "cases"), {}, "run.cases: got {}; expected minProperties 1"),
+    ((*MOVED, "expected"), None, 'metrics.moved/push.expected: got null; expected type "number"'),
+    ((*MOVED, "paper"), {"label": "a figure"}, "metrics.moved/push.paper: 'quantity' is a required property"),
+]
+OF_ALL = [
+    ((*MOVED, "value"), GONE, "metrics.moved/push: 'value' is a required property"),
+    ((*MOVED, "unit"), GONE, "metrics.moved/push: 'unit' is a required property"),
+    ((*MOVED, "value"), "abc", 'metrics.moved/push.value: got "abc"; expected type ["number", "null"]'),
+    (MOVED, 1, 'metrics.moved/push: got 1; expected type "object"'),
+    ((), [], 'got []; expected type "object"'),
+    ((), None, 'got null; expected type "object"'),
+]
+
+
+def damaged(document: Any, place: tuple[str, ...], value: Any) -> Any:
+    """The document with another value in one place."""
+    if not place:
+        return value
+    inner = document
+    for step in place[:-1]:
+        inner = inner[step]
+    inner[place[-1]] = value
+    if value is GONE:
+        del inner[place[-1]]
+    return document
+
+
+@pytest.fixture(scope="module")
+def good(tmp_path_factory: pytest.TempPathFactory, fmu_dir: Path) -> Path:
+    """A folder with the results of `SHORT`."""
+    place = tmp_path_factory.mktemp("good")
+    (place / "short.toml").write_text(SHORT, encoding="utf-8")
+    assert exo("run", place / "short.toml", "--fmu-dir", fmu_dir, "--out", place / "out").exit_code == 0
+    return place / "out"
+
+
+@pytest.mark.parametrize(("place", "value", "said"), [*OF_THE_PAGE, *OF_ALL])
+def test_what_is_wrong_in_the_numbers_of_a_run_is_told_with_file_and_place(
+    place: tuple[str, ...], value: Any, said: str, good: Path, tmp_path: Path
+) -> None:
+    out = tmp_path / "out"
+    shutil.copytree(good, out)
+    path = out / "short" / "metrics.json"
+    document = json.loads(path.read_text(encoding="utf-8"))
+    path.write_text(json.dumps(damaged(document, place, value)), encoding="utf-8")
+    own = tmp_path / "requirements.toml"
+    own.write_text(REQUIREMENT, encoding="utf-8")
+    commands: list[tuple[object, ...]] = [("report", "--out", out)]
+    if (place, value, said) in OF_ALL:
+        commands += [
+            ("report", "--out", good, "--against", out),
+            ("requirements", own, "--results", out),
+            ("compare", out, good),
+        ]
+    for command in commands:
+        answer = exo(*command)
+        assert answer.exit_code == 2, (command, answer.output)
+        assert answer.stderr.startswith(f"exo: {path}: "), (command, answer.stderr)
+        assert said in answer.stderr, (command, answer.stderr)

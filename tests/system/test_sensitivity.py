@@ -79,6 +79,30 @@ def test_a_study_that_cannot_be_run_is_one_sentence(
     assert not (tmp_path / "study.json").exists()
 
 
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        (None, "No such file or directory; expected a study"),
+        (b"\xff", "byte 0 is no UTF-8"),
+        (b"[", "expected TOML"),
+        (b"", "figure: missing; expected a value"),
+        (STUDY.replace('plant = "Testbed"', "plant = 1979-05-27", 1).encode(), "got datetime.date(1979, 5, 27)"),
+        (STUDY.replace("group = ", "grup = ", 1).encode(), "grup: unknown key"),
+        (STUDY.replace('source = "chosen"', 'source = "guessed"', 1).encode(), "source: got 'guessed'; expected"),
+    ],
+)
+def test_a_file_that_is_no_study_says_where(text: bytes | None, said: str, tmp_path: Path) -> None:
+    study = tmp_path / "study.toml"
+    if text is not None:
+        study.write_bytes(text)
+    done = CliRunner().invoke(app, ["sensitivity", str(study)])
+    assert done.exit_code == 2
+    assert done.stderr.startswith(f"exo: {study}: ")
+    assert said in done.stderr
+    for word in ("error of exo itself", "Errno", "http", "validation error"):
+        assert word not in done.stderr
+
+
 def test_the_pad_is_where_the_specification_says() -> None:
     lengths = {"L1": 0.32, "pad.x": 0.36, "pad.z": -0.12, "q_start[2]": -1.48096, "q_start[3]": 1.70138}
     height = pad_height({f"plant.{name}": value for name, value in lengths.items()})

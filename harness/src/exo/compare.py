@@ -1,6 +1,5 @@
 """Two results side by side: numbers and signals, and whether they agree."""
 
-import json
 import math
 from dataclasses import dataclass
 from pathlib import Path
@@ -8,6 +7,7 @@ from typing import Any, Literal
 
 import numpy as np
 
+from exo import metrics_file
 from exo.errors import ExoError
 from exo.recording import read, units_of
 
@@ -91,11 +91,7 @@ def _metrics(a: Path, b: Path, prefix: str) -> list[Difference]:
 
 def _numbers(path: Path) -> dict[str, tuple[float | None, str]]:
     """Value and unit of each metric."""
-    try:
-        metrics = json.loads(path.read_text(encoding="utf-8"))["metrics"]
-        return {name: (entry["value"], str(entry["unit"])) for name, entry in metrics.items()}
-    except (ValueError, KeyError, TypeError, AttributeError) as error:
-        raise ExoError(f"{path}: not the metrics.json of a run: {type(error).__name__}: {error}") from error
+    return {name: (entry["value"], entry["unit"]) for name, entry in metrics_file.numbers(path).items()}
 
 
 def _share_of_numbers(x: float | None, y: float | None) -> float:

@@ -5,6 +5,7 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
+from exo import metrics_file
 from exo.errors import ExoError
 from exo.folder import METRICS
 
@@ -31,19 +32,13 @@ def of(folder: Path) -> dict[str, Any] | None:
     path = folder / METRICS
     if not path.is_file():
         return None
-    try:
-        metrics = json.loads(path.read_text(encoding="utf-8"))["metrics"]
-        written = datetime.fromtimestamp(path.stat().st_mtime, UTC)
-        return {
-            "schema": SCHEMA_ID,
-            "date": written.isoformat(timespec="seconds"),
-            "metrics": {
-                name: {"verdict": str(one["verdict"]), "value": one["value"], "unit": str(one["unit"])}
-                for name, one in metrics.items()
-            },
-        }
-    except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
-        raise ExoError(f"{path}: not the metrics.json of a run: {type(error).__name__}: {error}") from error
+    metrics = metrics_file.numbers(path)
+    written = datetime.fromtimestamp(path.stat().st_mtime, UTC)
+    return {
+        "schema": SCHEMA_ID,
+        "date": written.isoformat(timespec="seconds"),
+        "metrics": {name: {key: one[key] for key in ("verdict", "value", "unit")} for name, one in metrics.items()},
+    }
 
 
 def read(folder: Path) -> dict[str, Any] | None:
@@ -55,6 +50,7 @@ def read(folder: Path) -> dict[str, Any] | None:
         found = json.loads(path.read_text(encoding="utf-8"))
         if found["schema"] != SCHEMA_ID:
             raise ExoError(f"{path}: expected schema {SCHEMA_ID}, got {found['schema']}")
+        metrics_file.check_numbers(found, path)
         return {"date": str(found["date"]), "metrics": dict(found["metrics"])}
     except (ValueError, KeyError, TypeError) as error:
         raise ExoError(f"{path}: not the verdicts of an earlier run: {type(error).__name__}: {error}") from error

@@ -32,8 +32,18 @@ def working() -> Path:
         raise ExoError("the working folder is not there any more; expected one that exists") from None
 
 
+def check_name(path: Path) -> None:
+    """ExoError for a name that is no UTF-8: Arrow neither reads nor writes there, and would say so after the run."""
+    try:
+        str(path).encode()
+    except UnicodeEncodeError:
+        shown = str(path).encode(errors="backslashreplace").decode()
+        raise ExoError(f"{shown}: its name is no UTF-8; expected another folder or file") from None
+
+
 def prepare(out: Path, scenarios: list[str]) -> None:
     """Refuses, before anything runs, a folder that cannot be written or whose contents are not exo's."""
+    check_name(out)
     try:
         out.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryDirectory(prefix=".exo-", dir=out):

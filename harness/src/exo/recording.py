@@ -1,5 +1,6 @@
 """What a run leaves: columns over tick time, with units, and how they are stored."""
 
+import csv as text
 import json
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -13,6 +14,7 @@ import pyarrow.parquet
 from numpy.typing import NDArray
 
 from exo.errors import ExoError, close_matches
+from exo.folder import check_name
 from exo.pace import Deadlines
 from exo.scenario import Segment
 
@@ -117,23 +119,63 @@ def write(table: pa.Table, path: Path, *, csv: bool = False) -> None:
 
 
 def read(path: Path) -> dict[str, NDArray[Any]]:
-    """Columns of a Parquet or CSV file."""
+    """Columns of a Parquet or CSV file; CSV may be what `exo run --csv` or what `exo export` has left."""
+    check_name(path)
     try:
         match path.suffix:
             case ".parquet":
                 table = pyarrow.parquet.read_table(path)
             case ".csv":
-                table = pyarrow.csv.read_csv(path)
+                table = _csv(path)
             case _:
                 raise ExoError(f"{path}: expected a .parquet or .csv file")
-    except pa.ArrowException as error:
+    except (pa.ArrowException, text.Error) as error:
         raise ExoError(f"{path}: cannot be read: {' '.join(str(error).split())}") from error
-    return {name: table[name].to_numpy() for name in table.column_names}
+    except UnicodeDecodeError as error:
+        raise ExoError(f"{path}: is no UTF-8; expected a text file in UTF-8") from error
+    names = table.column_names
+    if twice := [name for name in names if names.count(name) > 1]:
+        raise ExoError(f"{path}: column {twice[0]} is there twice; expected each name once")
+    return {name: table[name].to_numpy() for name in names}
 
 
 def units_of(path: Path) -> dict[str, str]:
-    """Units of a Parquet file's columns; a CSV file has none."""
-    if path.suffix != ".parquet":
-        return {}
+    """Units of the columns of a file that `read` can read; nothing where it has none."""
+    if path.suffix == ".csv":
+        head = _head(path)
+        return dict(zip(head.names, head.second, strict=True)) if head.has_units else {}
     fields = pyarrow.parquet.read_schema(path)
-    return {field.name: (field.metadata or {}).get(b"unit", b"").decode() for field in fields}
+    return {field.name: (field.metadata or {}).get(b"unit", b"").decode(errors="replace") for field in fields}
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Head:
+    """The first two rows of a CSV file, and what stands between cells."""
+
+    names: list[str]
+    second: list[str]
+    between: str
+
+    @property
+    def has_units(self) -> bool:
+        """Whether the second row has units, as `exo export` writes them: else there is a number below `time`."""
+        return len(self.names) == len(self.second) and (TIME, "s") in zip(self.names, self.second, strict=True)
+
+
+def _head(path: Path) -> _Head:
+    with path.open(encoding="utf-8-sig", newline="") as file:
+        lines = [file.readline(), file.readline()]
+    # Where the comma is the decimal one, `exo export` separates by semicolons.
+    between = ";" if lines[0].startswith(f"{TIME};") else ","
+    rows = [*text.reader(lines, delimiter=between), [], []]
+    return _Head(names=rows[0], second=rows[1], between=between)
+
+
+def _csv(path: Path) -> pa.Table:
+    head = _head(path)
+    return pyarrow.csv.read_csv(
+        path,
+        read_options=pyarrow.csv.ReadOptions(skip_rows_after_names=int(head.has_units)),
+        parse_options=pyarrow.csv.ParseOptions(delimiter=head.between),
+        convert_options=pyarrow.csv.ConvertOptions(decimal_point="," if head.between == ";" else "."),
+    )

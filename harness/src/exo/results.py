@@ -1,7 +1,6 @@
 """What an experiment leaves on disk: metrics.json, signals, figures with their data, JUnit file and manifest."""
 
 import json
-from importlib import resources
 from pathlib import Path
 from typing import Any
 
@@ -11,14 +10,7 @@ from exo import earlier, folder, junit, manifest, recording, scenes
 from exo.errors import ExoError
 from exo.experiment import Experiment
 from exo.kept import EVERYTHING, Kept
-
-SCHEMA_ID = "urn:exo:metrics:1"
-
-
-def schema() -> dict[str, Any]:
-    """The published schema of metrics.json."""
-    text = (resources.files("exo") / "metrics.schema.json").read_text(encoding="utf-8")
-    return dict(json.loads(text))
+from exo.metrics_file import SCHEMA_ID, schema
 
 
 def metrics_document(experiment: Experiment) -> dict[str, Any]:

@@ -13,11 +13,12 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
-from pydantic import BeforeValidator, Field
+from pydantic import BeforeValidator, Field, ValidationError
 
-from exo import experiment, scenario
+from exo import experiment, refused, scenario
 from exo.errors import ScenarioError
 from exo.naming import elements
+from exo.plain import plain_values
 from exo.scenario import Data, Positive, Scenario
 
 #: By how much a parameter is changed where the study states no values.
@@ -81,12 +82,20 @@ class Study(Data):
 
 
 def load(path: Path) -> Study:
-    """A study from its file."""
+    """A study from its file; ScenarioError says what is wrong in it and where."""
     try:
-        data = tomllib.loads(path.read_text(encoding="utf-8"))
+        text = path.read_text(encoding="utf-8")
+    except OSError as error:
+        raise ScenarioError(f"{path}: {error.strerror or error}; expected a study, a .toml file") from error
+    except UnicodeDecodeError as error:
+        raise ScenarioError(f"{path}: byte {error.start} is no UTF-8; expected a text file") from error
+    try:
+        data = plain_values(tomllib.loads(text), where=f"{path}: study")
         return Study.model_validate_json(json.dumps(data))
-    except (OSError, ValueError, RecursionError) as error:  # ValueError: no UTF-8, no TOML, no study
-        raise ScenarioError(f"{path}: {error}") from error
+    except (tomllib.TOMLDecodeError, RecursionError) as error:
+        raise ScenarioError(f"{path}: {error}; expected TOML") from error
+    except ValidationError as error:
+        raise ScenarioError("\n".join(refused.sentences(error, str(path), data, Study))) from error
 
 
 @dataclass(frozen=True)

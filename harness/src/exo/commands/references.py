@@ -47,7 +47,7 @@ def record_references(
     """Records the references of this project's FMUs; without --bless, exit code 1 where the folder has others."""
     with sentences(), ExitStack() as stack:
         built = find_fmu_dir(fmu_dir)
-        archives = {path.name: stack.enter_context(Archive(path)) for path in sorted(built.glob("*.fmu"))}
+        archives = {name: stack.enter_context(Archive(built / name)) for name in references.needed()}
         files = references.contents(archives)
         changed = references.write(files, folder) if bless else references.differences(files, folder)
     for name in changed:

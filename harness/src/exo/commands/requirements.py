@@ -1,15 +1,15 @@
 """`exo requirements`."""
 
 import json
+from functools import cache
 from pathlib import Path
 from typing import Annotated, Any
 
 import typer
 
-from exo import folder, screen
+from exo import folder, metrics_file, screen
 from exo import requirements as required
 from exo.commands.options import AsJson
-from exo.errors import ExoError
 from exo.requirements import PREFIX, Requirements
 from exo.screen import sentences
 
@@ -61,9 +61,12 @@ def _print(data: Requirements, rows: list[dict[str, Any]]) -> None:
 
 
 def _rows(data: Requirements, results: Path) -> Any:
+    numbers = cache(_numbers)
     for name, requirement in data.requirements.items():
         for key, shown in requirement.shown.items():
-            every = _of(results / shown.scenario / folder.METRICS, f"{PREFIX}{name}.{key}/")
+            prefix = f"{PREFIX}{name}.{key}/"
+            there = numbers(results / shown.scenario / folder.METRICS).items()
+            every = {case: one for case, one in there if case.startswith(prefix)}
             # A margin of a formula that has been changed since is no margin of this one.
             found = {case: one for case, one in every.items() if one.get("because") == shown.formula}
             worst = min(found, key=lambda one: _badness(found[one])) if found else None
@@ -81,15 +84,9 @@ def _rows(data: Requirements, results: Path) -> Any:
             }
 
 
-def _of(path: Path, prefix: str) -> dict[str, Any]:
-    """Results of a requirement in a scenario's metrics.json; nothing, where it has not run."""
-    if not path.is_file():
-        return {}
-    try:
-        metrics = json.loads(path.read_text(encoding="utf-8"))["metrics"]
-        return {key: value for key, value in metrics.items() if key.startswith(prefix)}
-    except (OSError, ValueError, KeyError, AttributeError) as error:
-        raise ExoError(f"{path}: cannot be read: {error}; expected what exo run writes") from error
+def _numbers(path: Path) -> dict[str, Any]:
+    """The numbers of a scenario's metrics.json; nothing, where it has not run."""
+    return metrics_file.numbers(path) if path.is_file() else {}
 
 
 def _badness(result: dict[str, Any]) -> tuple[bool, float]:

@@ -25,7 +25,7 @@ from exo.fmu import Archive
 from exo.folder import write_file
 from exo.references import recipes, requirements, sets
 from exo.references.names import DESCRIPTION, EXPERIMENTS_TYPE, FMI_LS, FOLDER, MANIFEST, NAME, SSV_TYPE, VERSION
-from exo.references.record import RESULT, STIMULUS, Columns, Experiment, record
+from exo.references.record import RESULT, STIMULUS, Columns, Experiment, coupled, record
 
 #: Of each column's largest magnitude. A result has three digits more; another platform gives the same bits; an
 #: importer that sums its time up, in place of counting steps, is off by less than a thousandth of it.
@@ -33,6 +33,11 @@ TOLERANCE = 1e-6
 EXP = "smoke-tests.exp"
 REQUIREMENTS = "requirements.md"
 DOCUMENT = "documentation/fmi-ls-ref.html"
+
+
+def needed() -> list[str]:
+    """Names of the archives from which `contents` records."""
+    return sorted({file for run in recipes.load().runs.values() for file in coupled(run).components.values()})
 
 
 def contents(archives: Mapping[str, Archive]) -> dict[str, bytes]:

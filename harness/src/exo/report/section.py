@@ -8,11 +8,11 @@ from typing import Any
 
 from pydantic import ValidationError
 
+from exo import metrics_file
 from exo import scenario as scenarios
 from exo.errors import ExoError, ScenarioError
-from exo.folder import MANIFEST, METRICS
+from exo.folder import MANIFEST, METRICS, check_name
 from exo.report.verdicts import Before, Row, row
-from exo.results import SCHEMA_ID
 from exo.scenario import Scenario
 
 VERDICTS = ("pass", "fail", "info")
@@ -75,9 +75,10 @@ class Section:
 
 def read(folder: Path, before: Before) -> Section:
     """The results in `folder`. ExoError: there are none, or they are no results of this version."""
-    document = _json(folder / METRICS, missing=f"run `exo run {folder.name}` first")
-    if document.get("schema") != SCHEMA_ID:
-        raise ExoError(f"{folder / METRICS}: expected schema {SCHEMA_ID}, got {document.get('schema')}")
+    check_name(folder)
+    if not (folder / METRICS).exists():
+        raise ExoError(f"{folder / METRICS}: missing: run `exo run {folder.name}` first")
+    document = metrics_file.read(folder / METRICS)
     earlier = before.of(folder)
     old = {} if earlier is None else earlier["metrics"]
     return Section(
@@ -97,15 +98,13 @@ def _scenario(folder: Path) -> Scenario:
     if not path.is_file():
         return scenarios.load(folder.name)
     try:
-        return Scenario.model_validate_json(json.dumps(_json(path, missing="")["scenario"]))
+        return Scenario.model_validate_json(json.dumps(_json(path)["scenario"]))
     except (KeyError, ValidationError, ScenarioError) as error:
         raise ExoError(f"{path}: holds no scenario of this version: run `exo run {folder.name}` again") from error
 
 
-def _json(path: Path, *, missing: str) -> dict[str, Any]:
+def _json(path: Path) -> dict[str, Any]:
     try:
         return dict(json.loads(path.read_text(encoding="utf-8")))
-    except FileNotFoundError:
-        raise ExoError(f"{path}: missing: {missing}") from None
     except (ValueError, TypeError) as error:
         raise ExoError(f"{path}: not a file of exo's results: {error}") from error

@@ -11,9 +11,10 @@ from typing import Annotated, Literal, Self
 
 from pydantic import BeforeValidator, Field, ValidationError, field_validator, model_validator
 
-from exo.errors import ScenarioError, close_matches
-from exo.known_keys import keys_at
+from exo import refused
+from exo.errors import ScenarioError
 from exo.naming import elements
+from exo.plain import plain_values
 from exo.requirements import formula
 from exo.scenario import Data, Identifier, Line, NotNegative
 
@@ -147,24 +148,18 @@ def load(path: Path) -> Requirements:
     """A file's; ScenarioError says what is wrong in it and where."""
     try:
         text = path.read_text(encoding="utf-8-sig")
-    except (OSError, UnicodeDecodeError) as error:
-        raise ScenarioError(f"{path}: cannot be read: {error}") from error
+    except OSError as error:
+        raise ScenarioError(f"{path}: cannot be read: {error.strerror or error}; expected a .toml file") from error
+    except UnicodeDecodeError as error:
+        raise ScenarioError(f"{path}: cannot be read: byte {error.start} is no UTF-8; expected a text file") from error
     return _read(text, str(path))
 
 
 def _read(text: str, where: str) -> Requirements:
     try:
-        data = tomllib.loads(text)
-    except tomllib.TOMLDecodeError as error:
-        raise ScenarioError(f"{where}: {error}") from error
-    try:
-        return Requirements.model_validate_json(json.dumps(data, default=str))
+        data = plain_values(tomllib.loads(text), where=where)
+        return Requirements.model_validate_json(json.dumps(data))
+    except (tomllib.TOMLDecodeError, RecursionError) as error:
+        raise ScenarioError(f"{where}: {error}; expected TOML") from error
     except ValidationError as error:
-        # A key that is misspelt is missing besides: the former says more.
-        first = min(error.errors(), key=lambda one: one["type"] != "extra_forbidden")
-        said = first["msg"].removeprefix("Value error, ")
-        if first["type"] == "extra_forbidden":
-            known = close_matches(str(first["loc"][-1]), keys_at(Requirements, first["loc"]))
-            said = f"unknown key, with value {first['input']!r:.80}{known}"
-        place = ".".join(str(part) for part in first["loc"])
-        raise ScenarioError(f"{where}: {place}: {said}") from error
+        raise ScenarioError("\n".join(refused.sentences(error, where, data, Requirements))) from error

@@ -74,6 +74,7 @@ class Store:
 
     def __enter__(self) -> Self:
         """ExoError, if the folder is another study's, or another sweep works in it."""
+        folder.check_name(self.folder)
         try:
             (self.folder / PARTS).mkdir(parents=True, exist_ok=True)
         except OSError as error:
