@@ -10,6 +10,7 @@ import typer
 from exo import folder, metrics_file, screen
 from exo import requirements as required
 from exo.commands.options import AsJson
+from exo.errors import ExoError
 from exo.requirements import PREFIX, Requirements
 from exo.screen import sentences
 
