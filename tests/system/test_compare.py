@@ -112,7 +112,7 @@ def test_a_broken_file_is_named(data: bytes, tmp_path: Path) -> None:
     assert "a.parquet" in answer.stderr
 
 
-@pytest.mark.parametrize("tolerance", ["nan", "-1"])
+@pytest.mark.parametrize("tolerance", ["nan", "-1", "inf"])
 def test_a_tolerance_that_is_none_is_refused(tolerance: str, tmp_path: Path) -> None:
     path = table(tmp_path / "a", [1.0])
     answer = exo("compare", path, path, "--tolerance", tolerance)
