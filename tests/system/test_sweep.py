@@ -14,7 +14,7 @@ import pyarrow.parquet as pq
 import pytest
 from matplotlib.figure import Figure
 
-from exo import folder, sweep
+from exo import sweep
 from exo.commands.sweep import Line
 from exo.errors import ExoError
 from exo.runs import FAILURE

@@ -29,8 +29,8 @@ from fmu_manipulation_toolbox.container import FMUContainer
 from lxml import etree
 
 from exo.errors import FmuError
-from exo.folder import write_file
 from exo.fmu import Archive
+from exo.folder import write_file
 from exo.systems.ssp import DATE, TYPES
 from exo.systems.system import System
 

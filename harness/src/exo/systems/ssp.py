@@ -28,8 +28,8 @@ from typing import Any
 from lxml import etree
 
 from exo.errors import FmuError
-from exo.folder import write_file
 from exo.fmu import Archive
+from exo.folder import write_file
 from exo.systems.document import SSC, SSD, SSV, TOOL, TYPES, dimensions, text, write_enumerations, write_units
 from exo.systems.form import SSP_1, Form, Part, parts
 from exo.systems.interface import Unit, Variable
