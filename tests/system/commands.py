@@ -1,5 +1,8 @@
 """The command `exo` in this process, and a scenario that takes it no time."""
 
+from collections.abc import Iterator
+from contextlib import contextmanager
+
 from typer.testing import CliRunner, Result
 
 from exo.cli import app
@@ -47,3 +50,16 @@ curves = [{ case = "push", column = "plant.q", label = "q" }]
 def exo(*arguments: object) -> Result:
     """Runs the command; arguments are made texts."""
     return CliRunner().invoke(app, [str(argument) for argument in arguments])
+
+
+@contextmanager
+def full_beyond(size: int) -> Iterator[None]:
+    """No file of this process may have more bytes: what a full disk is to a file that does not fit."""
+    import resource  # noqa: PLC0415  not on Windows
+
+    before = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (size, before[1]))
+    try:
+        yield
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, before)

@@ -193,3 +193,13 @@ def test_the_documentation_of_an_archive_does_not_matter(fmu_dir: Path, tmp_path
     parts.write(tmp_path)
     assert experiment.run(scenario=scenario.parse(text=ONE, origin="one.toml"), fmu_dir=tmp_path).passed
     assert list(place.iterdir()) == []
+
+
+@pytest.mark.parametrize("strict", [True, False])
+def test_a_description_without_a_version_is_told_so(strict: bool, fmu_dir: Path, tmp_path: Path) -> None:
+    parts = Parts.of(fmu_dir / "Testbed.fmu")
+    parts.edit(".", remove=("fmiVersion",))
+    with pytest.raises(
+        FmuError, match=r'broken\.fmu: modelDescription\.xml: no fmiVersion; expected fmiVersion="2\.0"$'
+    ):
+        Archive(parts.write(tmp_path), strict=strict)

@@ -159,7 +159,7 @@ def test_an_exported_table_is_no_different_from_its_run_and_has_its_units(
     assert row.share == pytest.approx(1.0)
 
 
-@pytest.mark.parametrize("tolerance", ["nan", "-1"])
+@pytest.mark.parametrize("tolerance", ["nan", "-1", "inf"])
 def test_a_tolerance_that_is_none_is_refused(tolerance: str, tmp_path: Path) -> None:
     path = table(tmp_path / "a", [1.0])
     answer = exo("compare", path, path, "--tolerance", tolerance)

@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from exo.errors import ExoError
 from exo.fmu import Archive
 from exo.master import simulate
 from exo.recording import Recording
@@ -21,6 +22,7 @@ from exo.scenario import PROFILE
 from exo.systems import container, system
 from exo.validate import problems
 
+from commands import full_beyond
 from foreign.record import Record
 from foreign.runs import by_calls, by_cosim, nanoseconds
 
@@ -156,3 +158,20 @@ def test_another_exchange_order_is_seen(containers: dict[str, Path], archives: M
     late = simulate(plan=plan, archives=archives)
     _, boxed = both(name, "gain_study-K7.5", 1.0, containers[name], archives)
     assert max(differences(late, boxed).values()) > 1e-6
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="limits of a process")
+def test_an_archive_that_does_not_fit_is_named_and_the_one_before_stays(
+    archives: Mapping[str, Archive], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path = tmp_path / "TestbedSystem.fmu"
+    path.write_bytes(b"as before")
+    data = container.content(system=system.load("TestbedSystem"), archives=archives)  # which needs room of its own
+    monkeypatch.setattr(container, "content", lambda **_: data)
+    with (
+        full_beyond(1000),
+        pytest.raises(ExoError, match=r"System\.fmu: cannot be written: File too large; what was there before stays"),
+    ):
+        container.write(system=system.load("TestbedSystem"), archives=archives, folder=tmp_path)
+    assert path.read_bytes() == b"as before"
+    assert [one.name for one in tmp_path.iterdir()] == [path.name]

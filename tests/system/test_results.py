@@ -16,9 +16,10 @@ from xml.etree import ElementTree as ET
 import pytest
 
 from exo import __version__, folder, junit, recording
+from exo.errors import ExoError
 from exo.fmu import Archive
 
-from commands import SHORT, exo
+from commands import SHORT, exo, full_beyond
 
 REQUIREMENT = """
 [requirements.reach]
@@ -289,3 +290,26 @@ def test_what_is_wrong_in_the_numbers_of_a_run_is_told_with_file_and_place(
         assert answer.exit_code == 2, (command, answer.output)
         assert answer.stderr.startswith(f"exo: {path}: "), (command, answer.stderr)
         assert said in answer.stderr, (command, answer.stderr)
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="limits of a process")
+def test_a_page_that_does_not_fit_is_named_and_the_one_before_stays(short: Path, tmp_path: Path, fmu_dir: Path) -> None:
+    out = tmp_path / "out"
+    exo("run", short, "--fmu-dir", fmu_dir, "--out", out)
+    page = out / "report.html"
+    page.write_text("as before", encoding="utf-8")
+    with full_beyond(1000):
+        answer = exo("report", "--out", out)
+    said = f"exo: {page}: cannot be written: File too large; what was there before stays\n"
+    assert (answer.exit_code, answer.stderr) == (2, said)
+    assert page.read_text(encoding="utf-8") == "as before"
+    assert {path.name for path in out.iterdir()} == {"short", "junit.xml", "report.html"}
+
+
+def test_a_file_in_the_place_of_a_folder_is_named_as_it_was_given(tmp_path: Path) -> None:
+    with pytest.raises(ExoError) as error:
+        folder.write_file(tmp_path, b"one")
+    assert re.fullmatch(
+        rf"{re.escape(str(tmp_path))}: cannot be written: .+; what was there before stays", str(error.value)
+    )
+    assert [one.name for one in tmp_path.parent.glob(f".{tmp_path.name}*")] == []

@@ -6,8 +6,11 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner
 
+from exo import sensitivity
 from exo.cli import app
 from exo.sensitivity import load, pad_height
+
+from commands import exo
 
 STUDY = """
 [[figure]]
@@ -101,6 +104,30 @@ def test_a_file_that_is_no_study_says_where(text: bytes | None, said: str, tmp_p
     assert said in done.stderr
     for word in ("error of exo itself", "Errno", "http", "validation error"):
         assert word not in done.stderr
+
+
+@pytest.mark.parametrize(
+    ("out", "message"),
+    [
+        ("folder", "folder: is no file; expected the name of a file to write"),
+        ("file/study.json", "study.json: cannot be written: "),
+    ],
+)
+def test_a_place_that_cannot_be_written_is_refused_before_anything_runs(
+    out: str, message: str, tmp_path: Path, fmu_dir: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def measure(*_: object, **__: object) -> None:
+        raise AssertionError("the place was not looked at")
+
+    monkeypatch.setattr(sensitivity, "measure", measure)
+    study = tmp_path / "study.toml"
+    study.write_text(STUDY, encoding="utf-8")
+    (tmp_path / "folder").mkdir()
+    (tmp_path / "file").write_text("a file", encoding="utf-8")
+    done = exo("sensitivity", study, "--fmu-dir", fmu_dir, "--out", tmp_path / out)
+    assert done.exit_code == 2
+    assert message in done.stderr
+    assert {path.name for path in tmp_path.iterdir()} == {"study.toml", "folder", "file"}
 
 
 def test_the_pad_is_where_the_specification_says() -> None:

@@ -6,6 +6,7 @@ harness' `exchange_at_once`. Before the first step it exchanges nothing: every w
 early.
 """
 
+import sys
 import zipfile
 from collections.abc import Mapping
 from dataclasses import replace
@@ -20,11 +21,13 @@ from fmpy.ssp.ssd import Parameter, read_ssd, read_ssv
 from lxml import etree
 
 from exo import profile
-from exo.errors import FmuError, ScenarioError
+from exo.errors import ExoError, FmuError, ScenarioError
 from exo.fmu import Archive
 from exo.master import Plan, simulate
 from exo.scenario import PROFILE, Segment
 from exo.systems import ssp, system
+
+from commands import full_beyond
 
 SCHEMAS = Path(fmpy.ssp.__file__).parent / "schema"
 NAMESPACES = {"ssd": ssp.SSD, "ssc": ssp.SSC, "ssv": ssp.SSV, "oms": ssp.OMS}
@@ -269,3 +272,18 @@ def test_at_one_millisecond_fmpy_s_summed_time_is_the_only_difference(
     assert differences["operator.f_h[1]"] <= (6.9 * 2.0 * np.pi * 0.4 + 6.9 / 2.0) * off + 1e-15
     # From there through the nominal, 1/Λ_n and friction's set-valued force: positions to far below 1e-12 m.
     assert max(differences[f"plant.p[{i}]"] for i in (1, 2, 3)) < 1e-12
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="limits of a process")
+def test_an_archive_that_does_not_fit_is_named_and_the_one_before_stays(
+    archives: Mapping[str, Archive], tmp_path: Path
+) -> None:
+    path = tmp_path / "TestbedSystem.ssp"
+    path.write_bytes(b"as before")
+    with (
+        full_beyond(1000),
+        pytest.raises(ExoError, match=r"System\.ssp: cannot be written: File too large; what was there before stays"),
+    ):
+        ssp.write(system=system.load("TestbedSystem"), archives=archives, folder=tmp_path)
+    assert path.read_bytes() == b"as before"
+    assert [one.name for one in tmp_path.iterdir()] == [path.name]

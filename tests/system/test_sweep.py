@@ -14,7 +14,7 @@ import pyarrow.parquet as pq
 import pytest
 from matplotlib.figure import Figure
 
-from exo import folder, sweep
+from exo import sweep
 from exo.commands.sweep import Line
 from exo.errors import ExoError
 from exo.runs import FAILURE
@@ -165,17 +165,19 @@ def test_a_row_that_fails_is_a_row_with_its_reason(study_file: Path, fmu_dir: Pa
 def test_a_full_disk_is_named_and_what_is_finished_is_kept(
     study_file: Path, fmu_dir: Path, tmp_path: Path, monkeypatch: Any
 ) -> None:
-    plain, written = folder.write_file, []
+    plain, written = Path.replace, []
 
-    def write_file(path: Path, data: bytes) -> None:
-        written.append(path)
+    def replace(self: Path, target: Path) -> Path:
+        written.append(target)
         if len(written) == 3:  # the study's file, a part, and this
-            raise OSError(errno.ENOSPC, "No space left on device")
-        plain(path, data)
+            raise OSError(errno.ENOSPC, "No space left on device", str(self))
+        return plain(self, target)
 
-    monkeypatch.setattr(folder, "write_file", write_file)
-    with pytest.raises(ExoError, match=r"parquet: No space left on device; what was finished is kept"):
+    monkeypatch.setattr(Path, "replace", replace)
+    with pytest.raises(ExoError) as error:
         sweep.sweep(study_file, out=tmp_path, workers=1, fmu_dir=fmu_dir)
+    said = "cannot be written: No space left on device; what was finished is kept, and the same command goes on"
+    assert str(error.value) == f"{written[-1]}: {said}"
     told: list[sweep.Progress] = []
     done = sweep.sweep(study_file, out=tmp_path, workers=1, fmu_dir=fmu_dir, tell=told.append)
     assert told[0].kept_before > 0
@@ -186,18 +188,17 @@ def test_a_full_disk_is_named_and_what_is_finished_is_kept(
 def test_a_disk_that_is_full_at_first_or_at_last_is_named_with_the_file(
     what: str, study_file: Path, fmu_dir: Path, tmp_path: Path, monkeypatch: Any
 ) -> None:
-    full = OSError(errno.ENOSPC, "No space left on device")
+    full, plain = OSError(errno.ENOSPC, "No space left on device"), Path.replace
 
-    def write_file(path: Path, data: bytes) -> None:
-        if path.name == what:
+    def replace(self: Path, target: Path) -> Path:
+        if target.name == what:
             raise full
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_bytes(data)
+        return plain(self, target)
 
     def savefig(*_: Any, **__: Any) -> None:
         raise full
 
-    monkeypatch.setattr(folder, "write_file", write_file)
+    monkeypatch.setattr(Path, "replace", replace)
     monkeypatch.setattr(Figure, "savefig", savefig)
     with pytest.raises(ExoError, match=rf"{re.escape(what)}: .*No space left on device"):
         sweep.sweep(study_file, out=tmp_path, workers=1, fmu_dir=fmu_dir)

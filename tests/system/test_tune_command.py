@@ -2,6 +2,7 @@
 
 import json
 import math
+import sys
 from pathlib import Path
 
 import pytest
@@ -12,6 +13,8 @@ from exo.cli import app
 from exo.errors import ScenarioError
 from exo.fmu import find_fmu_dir
 from exo.tuning import reading
+
+from commands import exo, full_beyond
 
 PLAIN = ["--T", "0.002", "--M-min", "6", "--M-max", "6", "--M-n", "5", "--D-n", "0.5", "--K", "30"]
 
@@ -143,6 +146,10 @@ def test_options_go_over_what_is_read_and_friction_over_friction(tmp_path: Path)
         ([*PLAIN, "--F-c", "3", "--F-s", "2"], "F_s = 2: expected at least F_c = 3"),
         ([*PLAIN, "--speed", "0.01"], "speed = 0.01: expected dry friction beside it"),
         ([*PLAIN, "--F-c", "3", "--speed", "-1"], "speed = -1: expected a finite value, at least 1e-06"),
+        (
+            [*PLAIN, "--F-c", "10", "--F-s", "15", "--v-s", "0.000001", "--speed", "0.01"],
+            "F_s = 15, v_s = 1e-06: friction falls with speed",
+        ),
         ([*PLAIN, "--case", "paper"], "--case and --set: expected a scenario to apply them to (--scenario)"),
         (["--scenario", "arm_presets", "--axis", "w"], "axis w: expected one of x, y, z"),
         (["--scenario", "arm_presets", "--case", "papr_slow"], "arm_presets: no case papr_slow"),
@@ -154,3 +161,28 @@ def test_a_wrong_command_is_one_sentence_that_names_the_thing(arguments: list[st
     assert done.exit_code == 2
     assert text in " ".join(done.stderr.split())
     assert "Traceback" not in done.output
+
+
+def test_a_substep_that_is_longer_than_the_period_is_one_substep(tmp_path: Path) -> None:
+    for substep in ("0.002", "20000"):
+        answer = exo("tune", *PLAIN, "--substep", substep, "--out", tmp_path / substep)
+        assert answer.exit_code == 0, answer.output
+    one, long = (json.loads((tmp_path / name / "tune.json").read_text(encoding="utf-8")) for name in ("0.002", "20000"))
+    assert one["machine"].pop("substep") == 0.002
+    assert long["machine"].pop("substep") == 20000.0
+    assert one == long
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="limits of a process")
+@pytest.mark.parametrize("name", ["tune.json", "tune.png"])
+def test_a_file_that_does_not_fit_is_named_and_the_one_before_stays(name: str, tmp_path: Path) -> None:
+    arguments = ("tune", *PLAIN, "--out", tmp_path)
+    assert exo(*arguments).exit_code == 0
+    path, table = tmp_path / name, tmp_path / "tune.json"
+    before, room = path.read_bytes(), table.stat().st_size
+    with full_beyond(room + 1000 if name == "tune.png" else room // 2):
+        answer = exo(*arguments, "--M-n", "4")
+    said = f"exo: {path}: cannot be written: File too large; what was there before stays\n"
+    assert (answer.exit_code, answer.stderr) == (2, said)
+    assert path.read_bytes() == before
+    assert {one.name for one in tmp_path.iterdir()} == {"tune.json", "tune.png"}

@@ -106,6 +106,26 @@ def test_friction_that_cannot_be_is_refused_by_name(changes: dict[str, float], t
         replace(JOINT, **changes)
 
 
+@pytest.mark.parametrize("lags", [{}, {"drive_cutoff": 300.0, "dq_cutoff": 40.0, "f_cutoff": 25.0}])
+@pytest.mark.parametrize("hand", [{}, {"k_h": 50.0, "hand_delay": 0.1}])
+@pytest.mark.parametrize("substep", [0.0, 1e-5, 1e-4, 2e-3])
+@pytest.mark.filterwarnings("error")
+def test_the_steepest_fall_of_friction_that_is_taken_can_be_computed_and_unstable(
+    substep: float, hand: dict[str, float], lags: dict[str, float]
+) -> None:
+    machine = Machine(T=0.002, M_min=6.0, M_max=6.0, substep=substep, **hand, **lags)
+    gains = Gains(M_n=3.0, D_n=3.0, K=30.0, K_P=10.0)
+    least = sliding.least_damper(machine=machine, M=6.0)
+    # Stribeck's curve falls by √(2/e) (F_s − F_c)/v_s where it is steepest.
+    v_s = math.sqrt(2.0 / math.e) * 5.0 / -least
+    just = Friction((Stribeck(F_c=10.0, F_s=15.0, v_s=1.001 * v_s, b=0.0),))
+    found = sliding.sliding(machine=machine, gains=gains, friction=just, M=6.0, speed=float(v_s / math.sqrt(2.0)))
+    assert found.verdict == "slips"
+    steeper = Friction((Stribeck(F_c=10.0, F_s=15.0, v_s=0.99 * v_s, b=0.0),))
+    with pytest.raises(ExoError, match=rf"^F_s = 15, v_s = {0.99 * v_s:g}: friction falls with speed by .*at M = 6 kg"):
+        sliding.sliding(machine=machine, gains=gains, friction=steeper, M=6.0)
+
+
 def led(
     archives: Mapping[str, Archive], *, scenario: str, case: str, v: float, duration: float, **values: Any
 ) -> Recording:

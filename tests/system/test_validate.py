@@ -1,6 +1,7 @@
 """`exo validate` on good FMUs, on FMUs with one thing broken, on foreign ones and on rubbish."""
 
 import json
+import os
 import random
 import re
 from collections.abc import Mapping
@@ -221,3 +222,29 @@ def test_the_documents_list_the_rules() -> None:
     page = (Path(__file__).parents[2] / "docs" / "validate.md").read_text(encoding="utf-8")
     rows = re.findall(r"^\| `([a-z-]+)` \| (error|warning) \| (.*?) \| (.*) \|$", page, re.MULTILINE)
     assert rows == [(rule.id, rule.severity, rule.only or "2.0, 3.0", rule.text) for rule in RULES.values()]
+
+
+@pytest.mark.parametrize("name", ["folder", "folder.fmu", "folder.ssp"])
+def test_what_is_there_and_no_file_is_told_so(name: str, tmp_path: Path) -> None:
+    (tmp_path / name).mkdir()
+    answer = CliRunner().invoke(app, ["validate", str(tmp_path / name)])
+    said = f"exo: {tmp_path / name}: is no file; expected an FMU or an SSP archive\n"
+    assert (answer.exit_code, answer.stderr) == (2, said)
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="no named pipes here")
+def test_a_pipe_is_no_file_and_nobody_waits_for_it(tmp_path: Path) -> None:
+    os.mkfifo(tmp_path / "pipe.fmu")
+    answer = CliRunner().invoke(app, ["validate", str(tmp_path / "pipe.fmu")])
+    assert (answer.exit_code, "pipe.fmu: is no file; expected an FMU or an SSP archive" in answer.stderr) == (2, True)
+
+
+def test_the_rules_as_json_say_what_the_documents_list() -> None:
+    answer = CliRunner().invoke(app, ["validate", "--rules", "--json"])
+    assert answer.exit_code == 0, answer.output
+    rows = [(row["rule"], row["severity"], row["fmi"], row["text"]) for row in json.loads(answer.stdout)]
+    docs = Path(__file__).parents[2] / "docs"
+    page, of_systems = ((docs / name).read_text(encoding="utf-8") for name in ("validate.md", "validate-ssp.md"))
+    listed = re.findall(r"^\| `([a-z-]+)` \| (error|warning) \| (.*?) \| (.*) \|$", page, re.MULTILINE)
+    listed += re.findall(r"^\| `(ssp-[a-z-]+)` \| (error|warning) \|() (.*) \|$", of_systems, re.MULTILINE)
+    assert rows == [(rule, severity, fmi or "SSP", text) for rule, severity, fmi, text in listed]

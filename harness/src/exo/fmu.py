@@ -6,6 +6,7 @@ NumPy buffers, because fmpy's convenience calls cost more than the models.
 
 import os
 import threading
+import zipfile
 from collections import deque
 from collections.abc import Mapping
 from contextlib import ExitStack
@@ -18,6 +19,7 @@ from typing import Any, Literal, Self
 import fmpy
 import numpy as np
 from fmpy.fmi2 import FMU2Slave
+from lxml import etree
 from numpy.typing import NDArray
 
 from exo.errors import FmuError, close_matches
@@ -170,6 +172,9 @@ def _description(path: Path, *, strict: bool) -> tuple[Any, str]:
     try:
         description = fmpy.read_model_description(str(path))
     except Exception as error:  # fmpy raises what its parser and its validation raise, and plain exceptions
+        # It has been parsed by then, and fmpy asks None what it starts with.
+        if isinstance(error, AttributeError) and _lacks_version(path):
+            raise FmuError(f'{path}: modelDescription.xml: no fmiVersion; expected fmiVersion="2.0"') from None
         problems = _said(error)
         try:
             if strict:
@@ -183,6 +188,12 @@ def _description(path: Path, *, strict: bool) -> tuple[Any, str]:
             f"{path}: expected an FMI 2.0 co-simulation FMU, got FMI {description.fmiVersion} {kind}".rstrip()
         )
     return description, problems
+
+
+def _lacks_version(path: Path) -> bool:
+    """Whether the description, which can be parsed, has no fmiVersion."""
+    with zipfile.ZipFile(path) as archive, archive.open("modelDescription.xml") as file:
+        return etree.parse(file, etree.XMLParser(resolve_entities=False)).getroot().get("fmiVersion") is None
 
 
 def _said(error: Exception) -> str:

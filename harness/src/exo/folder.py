@@ -161,8 +161,35 @@ def _listed(folder: Path) -> list[str]:
         return [path.relative_to(folder).as_posix() for pattern in BEFORE for path in folder.glob(pattern)]
 
 
-def write_file(path: Path, data: bytes) -> None:
-    """Writes a file under a temporary name, then renames it."""
+#: What a message says of a file that could not be replaced.
+STAYS = "what was there before stays"
+
+
+def prepare_file(path: Path) -> None:
+    """Refuses, before anything runs, a place where `write_file` could put no file."""
+    if path.exists() and not path.is_file():
+        raise ExoError(f"{path}: is no file; expected the name of a file to write")
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryFile(dir=path.parent):
+            pass
+    except OSError as error:
+        said = error.strerror or error
+        raise ExoError(f"{path}: cannot be written: {said}; expected a folder that can be written") from error
+
+
+def write_file(path: Path, data: bytes, *, kept: str = STAYS) -> None:
+    """Writes a file under a temporary name, then renames it.
+
+    ExoError, if it cannot be written; it ends with `kept`, what is left then.
+    """
+    try:
+        _put(path, data)
+    except OSError as error:  # names the temporary file, or none
+        raise ExoError(f"{path}: cannot be written: {error.strerror or error}; {kept}") from error
+
+
+def _put(path: Path, data: bytes) -> None:
     path.parent.mkdir(parents=True, exist_ok=True)
     handle, name = tempfile.mkstemp(prefix=f".{path.name}.", dir=path.parent)
     try:
@@ -190,7 +217,7 @@ def replaced_file(path: Path) -> Iterator[Path]:
         yield fresh / path.name
         (fresh / path.name).replace(path)
     except OSError as error:
-        raise ExoError(f"{path}: cannot be written: {error.strerror or error}") from error
+        raise ExoError(f"{path}: cannot be written: {error.strerror or error}; {STAYS}") from error
     finally:
         shutil.rmtree(fresh, ignore_errors=True)
 

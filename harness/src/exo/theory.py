@@ -54,6 +54,11 @@ def continuous(*, loop: Loop, omega: float) -> complex:
     return complex(numerator / denominator)
 
 
+def substeps(*, T: float, substep: float) -> int:
+    """How many substeps of at most `substep` (s, above 0) the plants take in T (s); one at least."""
+    return max(1, int(np.ceil(T / substep - 1e-6)))
+
+
 def sampled_tick(*, loop: Loop, state: Array, f_h: float) -> Array:
     """The state (q, dq, q_{k−1}, q_n, v_n) one period later: implicit midpoint law, mass by backward Euler.
 
@@ -69,7 +74,7 @@ def sampled_tick(*, loop: Loop, state: Array, f_h: float) -> Array:
     )
     y = (v_m - dq) + K_P * (e + T * (v_m - dq) / 2.0)
     acceleration = (loop.K * y + f_h) / loop.M
-    n = np.ceil(T / loop.substep - 1e-6)
+    n = substeps(T=T, substep=loop.substep)
     return np.array(
         [
             q + T * v + (n + 1.0) / (2.0 * n) * T**2 * acceleration,
@@ -162,7 +167,7 @@ def robot(*, loop: Loop) -> tuple[Array, Array, Array]:
 def _robot(*, M: float, b: float, T: float, substep: float, lag: float) -> Array:
     """The map of (q, dq, τ, u, f), for the `lag` in rad/s."""
     if substep > 0.0:
-        n = int(np.ceil(T / substep - 1e-6))
+        n = substeps(T=T, substep=substep)
         dt = T / n
         keep = np.exp(-lag * dt) if lag else 0.0
         q, v, tau, u, f = np.eye(5)

@@ -1,7 +1,7 @@
 """`exo compare`."""
 
 import json
-from math import isfinite
+from math import inf, isfinite
 from pathlib import Path
 from typing import Annotated
 
@@ -23,8 +23,8 @@ def compare(
 ) -> None:
     """Compares two result folders or two signal files; exit code 1 beyond the tolerance."""
     with sentences():
-        if not tolerance >= 0.0:
-            raise ExoError(f"--tolerance {tolerance:g}: expected a share of 0 or more")
+        if not 0.0 <= tolerance < inf:  # what is missing is infinitely far away
+            raise ExoError(f"--tolerance {tolerance:g}: expected a finite share of 0 or more")
         differences = comparison.compare(a, b)
         beyond = sorted((d for d in differences if not d.share <= tolerance), key=lambda d: -d.share)
         largest = max((d.share for d in differences), default=0.0)

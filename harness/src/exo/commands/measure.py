@@ -30,10 +30,11 @@ def measure_sensitivity(
     """Changes every parameter of the plants, one at a time, and writes what the key figures become."""
     with sentences():
         data = sensitivity.load(study)
+        path = out or study.with_suffix(".json")
+        folder.prepare_file(path)
         runner = sensitivity.Runner(study=data, fmu_dir=find_fmu_dir(fmu_dir))
         with progress_bar() as progress:
             task = progress.add_task("sensitivity", total=len(list(sensitivity.jobs(data))))
             effects = sensitivity.measure(runner, on_job=lambda job: progress.update(task, description=job, advance=1))
-        path = out or study.with_suffix(".json")
         folder.write_file(path, sensitivity.text(effects).encode())
         console.print(f"written: {path}", markup=False)

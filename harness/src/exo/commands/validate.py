@@ -32,7 +32,7 @@ def validate_fmus(
         list[str] | None, typer.Option("--platform", help="A folder that binaries/ must have; may be repeated.")
     ] = None,
     max_glibc: Annotated[str | None, typer.Option(help="Newest glibc that Linux libraries may need, as 2.17.")] = None,
-    as_json: Annotated[bool, typer.Option("--json", help="Findings and verdicts as JSON.")] = False,
+    as_json: Annotated[bool, typer.Option("--json", help="Findings and verdicts as JSON, or the rules.")] = False,
     rules: Annotated[bool, typer.Option("--rules", help="Lists the rules instead.")] = False,
 ) -> None:
     """Validates FMI 2.0 and 3.0 FMUs for co-simulation, and SSP archives; exit code 1 on an error.
@@ -40,7 +40,7 @@ def validate_fmus(
     Of FMI 3.0, scheduled execution as well. What runs of an FMU runs in processes of its own.
     """
     if rules:
-        _print_rules()
+        _print_rules(as_json=as_json)
         return
     with sentences():
         if not fmus:
@@ -57,12 +57,16 @@ def validate_fmus(
     raise typer.Exit(1 if any(report.failed(strict=strict) for report in reports) else 0)
 
 
-def _print_rules() -> None:
+def _print_rules(*, as_json: bool) -> None:
+    rows = [(rule.id, rule.severity, rule.only or "2.0, 3.0", rule.text) for rule in validate.RULES.values()]
+    rows += [(rule.id, rule.severity, "SSP", rule.text) for rule in validate.ssp.RULES.values()]
+    if as_json:
+        keys = ("rule", "severity", "fmi", "text")
+        typer.echo(json.dumps([dict(zip(keys, row, strict=True)) for row in rows], indent=2, ensure_ascii=False))
+        return
     table = screen.table("rule", "severity", "FMI", "holds when")
-    for rule in validate.RULES.values():
-        screen.add(table, rule.id, rule.severity, rule.only or "2.0, 3.0", rule.text)
-    for rule in validate.ssp.RULES.values():
-        screen.add(table, rule.id, rule.severity, "SSP", rule.text)
+    for row in rows:
+        screen.add(table, *row)
     screen.print_table(table)
 
 

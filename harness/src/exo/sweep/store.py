@@ -177,11 +177,7 @@ class Store:
         self._write(self.folder / STUDY, (text + "\n").encode())
 
     def _write(self, path: Path, data: bytes) -> None:
-        try:
-            folder.write_file(path, data)
-        except OSError as error:
-            said = error.strerror or error
-            raise ExoError(f"{path}: {said}; what was finished is kept, and the same command goes on") from error
+        folder.write_file(path, data, kept="what was finished is kept, and the same command goes on")
 
     def table(self) -> pa.Table:
         """All rows that have run, in order, with what they set."""

@@ -30,6 +30,7 @@ from lxml import etree
 
 from exo.errors import FmuError
 from exo.fmu import Archive
+from exo.folder import write_file
 from exo.systems.ssp import DATE, TYPES
 from exo.systems.system import System
 
@@ -40,10 +41,9 @@ NAMESPACE = uuid.UUID("6f1f6a9e-7b0c-5c55-9d6e-3f0d6a0f2f11")
 
 
 def write(*, system: System, archives: Mapping[str, Archive], folder: Path) -> Path:
-    """Writes `<folder>/<system>.fmu`; `archives` are FMUs by archive name."""
+    """Writes `<folder>/<system>.fmu`; `archives` are FMUs by archive name. ExoError, if it cannot be written."""
     path = folder / f"{system.name}.fmu"
-    folder.mkdir(parents=True, exist_ok=True)
-    path.write_bytes(content(system=system, archives=archives))
+    write_file(path, content(system=system, archives=archives))
     return path
 
 

@@ -29,6 +29,7 @@ from lxml import etree
 
 from exo.errors import FmuError
 from exo.fmu import Archive
+from exo.folder import write_file
 from exo.systems.document import SSC, SSD, SSV, TOOL, TYPES, dimensions, text, write_enumerations, write_units
 from exo.systems.form import SSP_1, Form, Part, parts
 from exo.systems.interface import Unit, Variable
@@ -57,10 +58,9 @@ class Used:
 
 
 def write(*, system: System, archives: Mapping[str, Archive], folder: Path, form: Form = SSP_1) -> Path:
-    """Writes `<folder>/<system>.ssp`; `archives` are FMUs by archive name."""
+    """Writes `<folder>/<system>.ssp`; `archives` are FMUs by archive name. ExoError, if it cannot be written."""
     path = folder / f"{system.name}.ssp"
-    folder.mkdir(parents=True, exist_ok=True)
-    path.write_bytes(content(system=system, archives=archives, form=form))
+    write_file(path, content(system=system, archives=archives, form=form))
     return path
 
 

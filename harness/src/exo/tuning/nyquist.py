@@ -105,7 +105,7 @@ def _robot(loop: Loop) -> dict[str, Array]:
     """The robot's part of `Parts`: its map is triangular in (q, v, τ)."""
     T, M = loop.T, loop.M
     if not (loop.b or loop.drive_cutoff):
-        n = np.ceil(T / loop.substep - 1e-6) if loop.substep > 0.0 else np.inf
+        n = theory.substeps(T=T, substep=loop.substep) if loop.substep > 0.0 else np.inf
         travel, faster = np.array([1.0, 0.5 * (1.0 + 1.0 / n)]), np.array([0.0, 1.0])
         return {"poles": faster, "q_u": travel, "v_u": faster, "q_f": travel, "v_f": faster, "minor": np.zeros(1)}
     scale = np.array([M / T**2, M / T, 1.0])

@@ -9,6 +9,7 @@ from typing import Any
 from rich.table import Table
 from rich.text import Text
 
+from exo.folder import replaced_file, write_file
 from exo.tuning.guide import KT_OVER_M_MAX, MARGIN, MN_OVER_M_MIN, AtMass, Guide
 from exo.tuning.region import Interval
 
@@ -201,11 +202,11 @@ def document(guide: Guide) -> dict[str, Any]:
 
 
 def write(*, guide: Guide, out: Path) -> list[Path]:
-    """Writes tune.json and tune.png."""
-    out.mkdir(parents=True, exist_ok=True)
+    """Writes tune.json and tune.png. ExoError, if one cannot be written."""
     text, picture = out / "tune.json", out / "tune.png"
-    text.write_text(json.dumps(document(guide), indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
+    write_file(text, (json.dumps(document(guide), indent=1, ensure_ascii=False) + "\n").encode())
     from exo.tuning import chart  # noqa: PLC0415  matplotlib takes its time
 
-    chart.draw(guide=guide, path=picture)
+    with replaced_file(picture) as fresh:
+        chart.draw(guide=guide, path=fresh)
     return [text, picture]

@@ -20,6 +20,8 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
+from exo.errors import ExoError
+from exo.theory import substeps
 from exo.tuning import region
 from exo.tuning.friction import Friction
 from exo.tuning.machine import Gains, Machine
@@ -34,6 +36,9 @@ NOTHING = 1.0
 BEYOND = 4.0
 #: How far above what is needed K is looked for.
 FURTHER = 100.0
+#: Largest exponent by which a motion may grow within a period: the exponential overflows at 700, and Nyquist's
+#: polynomials are products of several. And within a substep: backward Euler has a pole there.
+GROWTH_MOST, GROWTH_MOST_OF_A_SUBSTEP = 100.0, 10.0
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -67,15 +72,21 @@ class Sliding:
 
 
 def sliding(*, machine: Machine, gains: Gains, friction: Friction, M: float, speed: float | None = None) -> Sliding:
-    """Judges the motion at every speed, and at `speed` (m/s)."""
+    """Judges the motion at every speed, and at `speed` (m/s).
+
+    ExoError, if friction falls with speed more steeply than can be computed (`least_damper`).
+    """
     speeds = [float(v) for v in SPEEDS]
     spans = {v: friction.span(v) for v in speeds}
     lowest = min(low for low, _ in spans.values())
+    least = least_damper(machine=machine, M=M)
+    steepest = min(friction.least_slope, lowest, friction.span(speed)[0] if speed else 0.0)
+    _check_fall(friction, steepest=steepest, least=least, M=M)
     unstable = unstable_dampers(
         machine=machine,
         gains=gains,
         M=M,
-        least=min(lowest, BEYOND * lowest),  # it shows how far the loop is from slipping
+        least=min(lowest, max(BEYOND * lowest, least)),  # it shows how far the loop is from slipping
         most=max(high for _, high in spans.values()),
     )
 
@@ -101,6 +112,27 @@ def sliding(*, machine: Machine, gains: Gains, friction: Friction, M: float, spe
         speed=speed,
         verdict=verdict(machine=machine, gains=gains, friction=friction, M=M, speed=speed) if speed else None,
     )
+
+
+def least_damper(*, machine: Machine, M: float) -> float:
+    """The most negative damper on the robot (N·s/m) with which a period can be computed.
+
+    Without a drive a motion grows within T by exp(x), x = −b T/M; in n substeps of backward Euler by (1 − x/n)⁻ⁿ.
+    """
+    if machine.substep == 0.0:
+        return -GROWTH_MOST * M / machine.T
+    n = substeps(T=machine.T, substep=machine.substep)
+    return n * math.expm1(-min(GROWTH_MOST / n, GROWTH_MOST_OF_A_SUBSTEP)) * M / machine.T
+
+
+def _check_fall(friction: Friction, *, steepest: float, least: float, M: float) -> None:
+    """Refuses friction whose `steepest` slope is below the `least` that can be computed at M (kg)."""
+    if steepest < least:
+        term = max(friction.terms, key=lambda one: (one.F_s - one.F_c) / one.v_s)
+        raise ExoError(
+            f"F_s = {term.F_s:g}, v_s = {term.v_s:g}: friction falls with speed by {-steepest:.3g} N·s/m; expected at "
+            f"most {-least:.3g} N·s/m at M = {M:g} kg: a larger v_s, or F_s nearer to F_c = {term.F_c:g}"
+        )
 
 
 def verdict(*, machine: Machine, gains: Gains, friction: Friction, M: float, speed: float) -> str:

@@ -111,8 +111,6 @@ def check(
     """
     from exo.references.replay import look  # noqa: PLC0415  which needs the archive of this package
 
-    if path.suffix == ".ssp" and not path.is_file():
-        raise FmuError(f"{path}: no such SSP archive: run `cargo xtask ssp` first")
     _ask_for_file(path)
     if path.suffix == ".ssp":
         inside = partial(check, run=run, dynamic=dynamic, platforms=platforms, max_glibc=max_glibc)
@@ -185,5 +183,10 @@ def problems(path: Path) -> list[str]:
 
 
 def _ask_for_file(path: Path) -> None:
-    if not path.is_file():
-        raise FmuError(f"{path}: no such FMU: run `cargo xtask fmu` first")
+    if path.is_file():
+        return
+    if path.exists():
+        raise FmuError(f"{path}: is no file; expected an FMU or an SSP archive")
+    if path.suffix == ".ssp":
+        raise FmuError(f"{path}: no such SSP archive: run `cargo xtask ssp` first")
+    raise FmuError(f"{path}: no such FMU: run `cargo xtask fmu` first")
