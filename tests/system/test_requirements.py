@@ -250,6 +250,7 @@ signals.q = "plant.q"
 """
     own.write_text(text, encoding="utf-8")
     out = tmp_path / "results"
+    out.mkdir()
     assert exo("requirements", own, "--results", out).exit_code == 0
     assert "not run" in exo("requirements", own, "--results", out).output
     done = exo("run", tmp_path / "short.toml", "--requirements", own, "--out", out)
