@@ -85,7 +85,7 @@ def test_a_study_that_cannot_be_run_is_one_sentence(
 @pytest.mark.parametrize(
     ("text", "said"),
     [
-        (None, "No such file or directory; expected a study"),
+        (None, "cannot be read: No such file or directory; expected a .toml file"),
         (b"\xff", "byte 0 is no UTF-8"),
         (b"[", "expected TOML"),
         (b"", "figure: missing; expected a value"),

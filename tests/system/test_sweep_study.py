@@ -10,7 +10,9 @@ import numpy as np
 import pytest
 
 from exo import sweep
+from exo.errors import ExoError
 from exo.runs import FAILURE
+from exo.sweep import study
 
 from commands import exo
 from sweeping import WALL, sampled
@@ -134,3 +136,14 @@ def test_the_stability_map_is_where_exo_tune_puts_it(fmu_dir: Path, tmp_path: Pa
     share = np.array(done.table["limit_share"].to_pylist())
     assert 20 < grows.sum() < len(grows) - 20
     assert (grows == (share > 1.0)).all(), share[grows != (share > 1.0)]
+
+
+def test_a_study_from_an_editor_of_windows_is_read_and_one_nested_without_end_is_refused(
+    study_file: Path, tmp_path: Path
+) -> None:
+    study_file.write_bytes(b"\xef\xbb\xbf" + study_file.read_bytes())
+    assert study.load(study_file)[0].id == "small"
+    endless = tmp_path / "endless.toml"
+    endless.write_text(f"id = {'[' * 5000}{']' * 5000}\n")
+    with pytest.raises(ExoError, match=r"endless\.toml: .*recursion.*; expected TOML"):
+        study.load(endless)

@@ -1,11 +1,27 @@
-"""Values of Python and NumPy as a TOML file has them."""
+"""Values of Python and NumPy as a TOML file has them, and those of a file."""
 
+import tomllib
 from collections.abc import Mapping
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from exo.errors import ScenarioError
+
+
+def read_tables(path: Path, *, what: str) -> dict[str, Any]:
+    """The tables of a TOML file that is a `what`, such as a study. ScenarioError says why there are none."""
+    try:
+        # Editors of Windows put a mark before the first letter.
+        text = path.read_text(encoding="utf-8-sig")
+        return dict(plain_values(tomllib.loads(text), where=f"{path}: {what}"))
+    except OSError as error:
+        raise ScenarioError(f"{path}: cannot be read: {error.strerror or error}; expected a .toml file") from error
+    except UnicodeDecodeError as error:
+        raise ScenarioError(f"{path}: cannot be read: byte {error.start} is no UTF-8; expected a text file") from error
+    except (tomllib.TOMLDecodeError, RecursionError) as error:
+        raise ScenarioError(f"{path}: {error}; expected TOML") from error
 
 
 def plain_values(value: Any, *, where: str) -> Any:

@@ -7,7 +7,6 @@ parameter is changed by +25 % and −25 % of the value that the scenario's case 
 import json
 import math
 import re
-import tomllib
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -18,7 +17,7 @@ from pydantic import BeforeValidator, Field, ValidationError
 from exo import experiment, refused, scenario
 from exo.errors import ScenarioError
 from exo.naming import elements
-from exo.plain import plain_values
+from exo.plain import read_tables
 from exo.scenario import Data, Positive, Scenario
 
 #: By how much a parameter is changed where the study states no values.
@@ -83,17 +82,9 @@ class Study(Data):
 
 def load(path: Path) -> Study:
     """A study from its file; ScenarioError says what is wrong in it and where."""
+    data = read_tables(path, what="study")
     try:
-        text = path.read_text(encoding="utf-8")
-    except OSError as error:
-        raise ScenarioError(f"{path}: {error.strerror or error}; expected a study, a .toml file") from error
-    except UnicodeDecodeError as error:
-        raise ScenarioError(f"{path}: byte {error.start} is no UTF-8; expected a text file") from error
-    try:
-        data = plain_values(tomllib.loads(text), where=f"{path}: study")
         return Study.model_validate_json(json.dumps(data))
-    except (tomllib.TOMLDecodeError, RecursionError) as error:
-        raise ScenarioError(f"{path}: {error}; expected TOML") from error
     except ValidationError as error:
         raise ScenarioError("\n".join(refused.sentences(error, str(path), data, Study))) from error
 

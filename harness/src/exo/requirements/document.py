@@ -7,14 +7,14 @@ from fnmatch import fnmatchcase
 from functools import cache
 from importlib import resources
 from pathlib import Path
-from typing import Annotated, Literal, Self
+from typing import Annotated, Any, Literal, Self
 
 from pydantic import BeforeValidator, Field, ValidationError, field_validator, model_validator
 
 from exo import refused
 from exo.errors import ScenarioError
 from exo.naming import elements
-from exo.plain import plain_values
+from exo.plain import read_tables
 from exo.requirements import formula
 from exo.scenario import Data, Identifier, Line, NotNegative
 
@@ -139,27 +139,17 @@ class Requirements(Data):
 @cache
 def built_in() -> Requirements:
     """Those of the paper and of this project."""
-    return _read(
-        (resources.files("exo.requirements") / "requirements.toml").read_text(encoding="utf-8"), "requirements.toml"
-    )
+    text = (resources.files("exo.requirements") / "requirements.toml").read_text(encoding="utf-8")
+    return _judged(tomllib.loads(text), "requirements.toml")
 
 
 def load(path: Path) -> Requirements:
     """A file's; ScenarioError says what is wrong in it and where."""
-    try:
-        text = path.read_text(encoding="utf-8-sig")
-    except OSError as error:
-        raise ScenarioError(f"{path}: cannot be read: {error.strerror or error}; expected a .toml file") from error
-    except UnicodeDecodeError as error:
-        raise ScenarioError(f"{path}: cannot be read: byte {error.start} is no UTF-8; expected a text file") from error
-    return _read(text, str(path))
+    return _judged(read_tables(path, what="requirements"), str(path))
 
 
-def _read(text: str, where: str) -> Requirements:
+def _judged(data: dict[str, Any], where: str) -> Requirements:
     try:
-        data = plain_values(tomllib.loads(text), where=where)
         return Requirements.model_validate_json(json.dumps(data))
-    except (tomllib.TOMLDecodeError, RecursionError) as error:
-        raise ScenarioError(f"{where}: {error}; expected TOML") from error
     except ValidationError as error:
         raise ScenarioError("\n".join(refused.sentences(error, where, data, Requirements))) from error

@@ -35,7 +35,6 @@ Keys of axes are those of `exo.runs`.
 
 import json
 import math
-import tomllib
 from itertools import product
 from pathlib import Path
 from typing import Annotated, Any, Literal, Self
@@ -47,7 +46,7 @@ from pydantic import Field, ValidationError, model_validator
 from exo import refused
 from exo import scenario as scenarios
 from exo.errors import ExoError, close_matches
-from exo.plain import plain_values
+from exo.plain import read_tables
 from exo.rows import unlike
 from exo.scenario import Data, Identifier, Line, Positive, Scenario, Value
 
@@ -275,18 +274,10 @@ def load(name: str | Path) -> tuple[Study, Scenario]:
                 f"unknown study {name}{close_matches(str(name), known)}; expected one of these, or a .toml file"
             )
         path = known[str(name)]
+    data = read_tables(path, what="study")
+    _check_axes(data.get("axes"), where=f"{path}: axes")
     try:
-        text = path.read_text(encoding="utf-8")
-    except OSError as error:
-        raise ExoError(f"{path}: {error.strerror or error}; expected a study, a .toml file") from error
-    except UnicodeDecodeError as error:
-        raise ExoError(f"{path}: byte {error.start} is no UTF-8; expected a text file") from error
-    try:
-        data = plain_values(tomllib.loads(text), where=f"{path}: study")
-        _check_axes(data.get("axes"), where=f"{path}: axes")
         study = Study.model_validate_json(json.dumps(data))
-    except tomllib.TOMLDecodeError as error:
-        raise ExoError(f"{path}: {error}; expected TOML") from error
     except ValidationError as error:
         raise ExoError("\n".join(refused.sentences(error, str(path), data, Study))) from error
     beside = path.parent / study.scenario
